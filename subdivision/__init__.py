@@ -1,0 +1,12 @@
+"""Subdivision curves and surfaces: topology, stages, schemes.  No windows, no graphics."""
+
+from subdivision.rows import Connectivity, Grid, Polyline
+from subdivision.scheme import Scheme
+from subdivision.stage import Role, Stage, Stencil, Step
+from subdivision.topology import Boundary, Topology, TopologyError
+from subdivision.trace import Frame, Mesh, Trace, subdivide, trace
+
+__all__ = [
+    "Boundary", "Connectivity", "Frame", "Grid", "Mesh", "Polyline", "Role", "Scheme", "Stage", "Stencil", "Step",
+    "Topology", "TopologyError", "Trace", "subdivide", "trace",
+]  # fmt: skip

@@ -1,0 +1,72 @@
+"""Refinement in closed form: child indices are arithmetic on parent indices.
+
+No searching, no hashing, no mutation: each rule is the table of its paper, written as
+columns.  A negative twin stays negative, so the boundary takes care of itself.
+Sharpness wears off by one per level along the children of an edge [DKT98]_.
+"""
+
+import numpy as np
+
+from subdivision.arrays import Floats, Indices, columns
+from subdivision.topology import INFINITELY_SHARP, Topology
+
+
+def quads(t: Topology) -> Topology:
+    """Split every n-gon into n quads [DV21]_; vertices are numbered V, then F, then E.
+
+    Half-edge ``h`` becomes the quad ``4h .. 4h + 3`` round the corner it leaves.
+    """
+    H, V, F, E = t.n_halfedges, t.n_vertices, t.n_faces, t.n_edges
+    h, prev, across, behind = np.arange(H), t.prev, t.twin, t.twin[t.prev]
+    face_point, edge_point = V + t.face, V + F + t.edge
+    k = np.arange(4 * H)
+    return Topology(
+        origin=columns(t.origin, edge_point, face_point, edge_point[prev]),
+        next=k - k % 4 + (k + 1) % 4,
+        twin=columns(_child(across, 4 * t.next[across] + 3), 4 * t.next + 2, 4 * prev + 1, _child(behind, 4 * behind)),
+        edge=columns(2 * t.edge + (h <= across), 2 * E + h, 2 * E + prev, 2 * t.edge[prev] + (prev > behind)),
+        face=k // 4,
+        n_vertices=V + F + E,
+        edge_sharpness=_halves(t, inner=H),
+        vertex_sharpness=np.r_[worn(t.vertex_sharpness), np.zeros(F + E)],
+        hidden=t.hidden[t.face],
+    )
+
+
+def triangles(t: Topology) -> Topology:
+    """Split every triangle into four [VD22]_; vertices are numbered V, then E.
+
+    Half-edge ``h`` becomes the corner triangle ``3h .. 3h + 2``, and half-edge ``3H + h``
+    of the central triangle of its face.
+    """
+    H, V, E = t.n_halfedges, t.n_vertices, t.n_edges
+    h, prev, across, behind = np.arange(H), t.prev, t.twin, t.twin[t.prev]
+    middle, k = V + t.edge, np.arange(3 * H)
+    outer_twin = columns(_child(across, 3 * t.next[across] + 2), 3 * H + h, _child(behind, 3 * behind))
+    outer_edge = columns(2 * t.edge + (h <= across), 2 * E + h, 2 * t.edge[prev] + (prev > behind))
+    return Topology(
+        origin=np.r_[columns(t.origin, middle, middle[prev]), middle[prev]],
+        next=np.r_[k - k % 3 + (k + 1) % 3, 3 * H + t.next],
+        twin=np.r_[outer_twin, 3 * h + 1],
+        edge=np.r_[outer_edge, 2 * E + h],
+        face=np.r_[k // 3, H + t.face],
+        n_vertices=V + E,
+        edge_sharpness=_halves(t, inner=H),
+        vertex_sharpness=np.r_[worn(t.vertex_sharpness), np.zeros(E)],
+        hidden=np.r_[t.hidden[t.face], t.hidden],
+    )
+
+
+def worn(sharpness: Floats) -> Floats:
+    """Sharpness one level on: one less, never below 0; infinite stays infinite [DKT98]_."""
+    return np.where(sharpness >= INFINITELY_SHARP, sharpness, np.maximum(sharpness - 1, 0))
+
+
+def _halves(t: Topology, inner: int) -> Floats:
+    """Edge ``e`` becomes edges ``2e`` and ``2e + 1``; ``inner`` smooth edges follow."""
+    return np.r_[np.repeat(worn(t.edge_sharpness), 2), np.zeros(inner)]
+
+
+def _child(parent: Indices, child: Indices) -> Indices:
+    """Where there is no parent half-edge (-1) there is no child: arithmetic on -1 must not leak out."""
+    return np.where(parent < 0, -1, child)

@@ -1,0 +1,52 @@
+"""A scheme is a name, a paper, and one matrix told in one or more ways."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from subdivision.rows import Connectivity
+from subdivision.stage import Step
+from subdivision.topology import TopologyError
+
+NOT_A_MESH = "it subdivides polygon meshes"
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """Tellings are interchangeable: all of them multiply to the same matrix (tested).
+
+    Attributes
+    ----------
+    name : str
+        As the command line spells it.
+    title : str
+        As people say it.
+    paper : str
+        Key into ``assets/references.bib``.
+    refuses : Connectivity -> str
+        Why it cannot subdivide a control object; empty where it can.
+    tellings : name -> (Connectivity -> Step)
+        The first one is the telling for those who do not choose.
+    """
+
+    name: str
+    title: str
+    paper: str
+    refuses: Callable[[Connectivity], str]
+    tellings: Mapping[str, Callable[[Connectivity], Step]]
+
+    def accepts(self, topology: Connectivity) -> bool:
+        return not self.refuses(topology)
+
+    def step(self, topology: Connectivity, telling: str | None = None) -> Step:
+        """One subdivision step on ``topology``.
+
+        Raises
+        ------
+        TopologyError
+            If the scheme refuses the control object, or knows no such telling.
+        """
+        if reason := self.refuses(topology):
+            raise TopologyError(f"{self.title} cannot subdivide this: {reason}")
+        if telling is not None and telling not in self.tellings:
+            raise TopologyError(f"{self.title} has no telling '{telling}'; it has {', '.join(self.tellings)}")
+        return self.tellings[telling or next(iter(self.tellings))](topology)

@@ -1,0 +1,66 @@
+"""Uniform tensor product B-splines of any bidegree, by splitting and averaging in s and t [LR80]_.
+
+Split and average along s, then along t; or the other way round; or quadruple every point and
+average in any order: the passes commute, so all of them make the same net.
+"""
+
+from functools import partial
+from itertools import chain, zip_longest
+
+from subdivision.passes import (
+    Pass,
+    as_grid,
+    at_once,
+    average,
+    merged,
+    quadruple,
+    room,
+    split,
+    told,
+    topology_and_geometry,
+)
+from subdivision.rows import Connectivity, Grid
+from subdivision.scheme import Scheme
+from subdivision.topology import TopologyError
+
+S, T = (1, 0), (0, 1)
+
+
+def tensor_product(m: int, n: int) -> Scheme:
+    """The scheme of bidegree ``(m, n)``, both at least 1.
+
+    Raises
+    ------
+    TopologyError
+        For a degree below 1.
+    """
+    if min(m, n) < 1:
+        raise TopologyError(f"bidegree ({m}, {n}) needs both degrees to be 1 or more")
+    in_order = [quadruple, *[average(S)] * m, *[average(T)] * n]
+    tellings = {
+        "s, then t": lambda t: told(t, [split(0), *[average(S)] * m, split(1), *[average(T)] * n]),
+        "t, then s": lambda t: told(t, [split(1), *[average(T)] * n, split(0), *[average(S)] * m]),
+        "quadruple, then average": lambda t: told(t, in_order),
+        "quadruple, then alternate": lambda t: told(t, [quadruple, *alternating(m, n)]),
+        "stencils": lambda t: at_once("stencils", told(t, in_order)),
+    }
+    if (m, n) == (3, 3):
+        bilinear = merged("topology", [quadruple, average(S), average(T)])
+        tellings["topology and geometry"] = lambda t: topology_and_geometry(as_grid(t), bilinear)
+    return Scheme(
+        name=f"tensor-product-{m}-{n}",
+        title=f"Tensor product B-spline of bidegree ({m}, {n})",
+        paper="LR80",
+        refuses=partial(_refuses, lost=(m, n)),
+        tellings=tellings,
+    )
+
+
+def alternating(m: int, n: int) -> list[Pass]:
+    """``m`` passes along s and ``n`` along t, in turns."""
+    turns = zip_longest([average(S)] * m, [average(T)] * n)
+    return [one for one in chain.from_iterable(turns) if one is not None]
+
+
+def _refuses(t: Connectivity, lost: tuple[int, int]) -> str:
+    return room(t, lost) if isinstance(t, Grid) else "it is not a rectangular net"

@@ -1,0 +1,337 @@
+"""Half-edge connectivity of an oriented polygon mesh, as plain read-only index arrays.
+
+Half-edge ``h`` leaves vertex ``origin[h]``, runs along edge ``edge[h]`` with face
+``face[h]`` on its left, and is followed there by ``next[h]``.  ``twin[h]`` runs the
+other way along the same edge; it is negative where the mesh ends.  Half-edges are
+stored face by face, in loop order, so ``origin`` is also the flat list of corners.
+
+Sharpness belongs to the topology because weights depend on it as they do on valence.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from enum import Enum
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+
+from subdivision.arrays import Floats, Indices, Mask, frozen
+
+INFINITELY_SHARP = 10.0
+"""Sharpness from here on never wears off, as in OpenSubdiv."""
+
+
+class TopologyError(ValueError):
+    """The faces do not make an oriented manifold, or not one that a scheme accepts.
+
+    ``faces`` and ``vertices`` name the culprits, so that a reader can find their lines.
+    """
+
+    def __init__(self, message: str, *, faces: Sequence[int] = (), vertices: Sequence[int] = ()) -> None:
+        super().__init__(message)
+        self.faces = tuple(int(f) for f in faces)
+        self.vertices = tuple(int(v) for v in vertices)
+
+
+class Boundary(Enum):
+    """What happens where the mesh ends.  The lecture has no rule; these are additions to it."""
+
+    EDGE = "edge"
+    """Boundary edges are infinitely sharp: the outline is a cubic B-spline curve."""
+    EDGE_AND_CORNER = "edge-and-corner"
+    """... and vertices with a single face stay where they are."""
+    HIDE = "hide"
+    """Faces that touch the boundary support the surface but are not part of it."""
+    LITERAL = "literal"
+    """The interior rule with the faces that exist: the sheet shrinks at every level."""
+
+
+@dataclass(frozen=True, eq=False)
+class Topology:
+    """Everything subdivision weights depend on, and nothing else: no positions.
+
+    Attributes
+    ----------
+    origin, next, twin, edge, face : (n_halfedges,) int
+        See the module docstring.
+    n_vertices : int
+        Vertices are numbered ``0 .. n_vertices - 1``; some may be isolated.
+    edge_sharpness : (n_edges,) float
+        0 smooth; between them semi-sharp; 10 and more never wears off.
+    vertex_sharpness : (n_vertices,) float
+        Likewise.
+    hidden : (n_faces,) bool
+        Faces that support the surface but are not drawn.
+    """
+
+    origin: Indices
+    next: Indices
+    twin: Indices
+    edge: Indices
+    face: Indices
+    n_vertices: int
+    edge_sharpness: Floats
+    vertex_sharpness: Floats
+    hidden: Mask
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            if field.name != "n_vertices":
+                object.__setattr__(self, field.name, frozen(getattr(self, field.name)))
+
+    @classmethod
+    def from_faces(
+        cls,
+        faces: Sequence[Sequence[int]],
+        n_vertices: int | None = None,
+        *,
+        boundary: Boundary = Boundary.EDGE,
+        creases: Mapping[tuple[int, int], float] | None = None,
+        corners: Mapping[int, float] | None = None,
+    ) -> Self:
+        """Build connectivity from counter-clockwise vertex loops.
+
+        Parameters
+        ----------
+        creases : {(vertex, vertex): sharpness}
+        corners : {vertex: sharpness}
+
+        Raises
+        ------
+        TopologyError
+            If the loops are not an oriented manifold, or a crease is not one of its edges.
+        """
+        sizes = np.array([len(f) for f in faces], dtype=np.intp)
+        flat = [int(v) for loop in faces for v in loop]
+        return cls.from_corners(
+            sizes, np.array(flat, dtype=np.intp), n_vertices, boundary=boundary, creases=creases, corners=corners
+        )
+
+    @classmethod
+    def from_corners(
+        cls,
+        sizes: Indices,
+        origin: Indices,
+        n_vertices: int | None = None,
+        *,
+        boundary: Boundary = Boundary.EDGE,
+        creases: Mapping[tuple[int, int], float] | None = None,
+        corners: Mapping[int, float] | None = None,
+    ) -> Self:
+        """Build connectivity from face ``sizes`` (n_faces,) int and their corners laid end to end."""
+        n = n_vertices if n_vertices is not None else int(origin.max(initial=-1)) + 1
+        face = np.repeat(np.arange(len(sizes)), sizes)
+        _require_faces(sizes, origin, face, n)
+        next_ = np.arange(1, len(origin) + 1)
+        last = np.cumsum(sizes) - 1
+        next_[last] = last - sizes + 1
+        twin, edge, ends = _paired(origin, origin[next_], face, n)
+        bare = cls(
+            origin, next_, twin, edge, face, n,
+            _crease_sharpness(ends, creases or {}), _corner_sharpness(n, corners or {}), np.zeros(len(sizes), dtype=bool),
+        )  # fmt: skip
+        _require_single_fans(bare)
+        return bare.with_boundary(boundary)
+
+    def with_boundary(self, rule: Boundary) -> Self:
+        """The same mesh under another boundary rule; inner sharpness stays."""
+        edges, vertices = self.edge_sharpness.copy(), self.vertex_sharpness.copy()
+        edges[self.boundary] = 0.0 if rule is Boundary.LITERAL else INFINITELY_SHARP
+        if rule is Boundary.EDGE_AND_CORNER:
+            vertices[self.on_boundary & (np.bincount(self.origin, minlength=self.n_vertices) == 1)] = INFINITELY_SHARP
+        hidden = np.zeros(self.n_faces, dtype=bool)
+        if rule is Boundary.HIDE:
+            hidden[self.face[self.on_boundary[self.origin]]] = True
+        return replace(self, edge_sharpness=edges, vertex_sharpness=vertices, hidden=hidden)
+
+    @property
+    def n_halfedges(self) -> int:
+        return len(self.origin)
+
+    @property
+    def n_edges(self) -> int:
+        return len(self.edge_sharpness)
+
+    @property
+    def n_faces(self) -> int:
+        return len(self.hidden)
+
+    @cached_property
+    def prev(self) -> Indices:
+        """(n_halfedges,) int: the inverse permutation of ``next``."""
+        prev = np.empty_like(self.next)
+        prev[self.next] = np.arange(self.n_halfedges)
+        return frozen(prev)
+
+    @cached_property
+    def ends(self) -> Indices:
+        """(n_edges, 2) int: the two vertices of every edge."""
+        ends = np.empty((self.n_edges, 2), dtype=np.intp)
+        ends[self.edge] = np.stack([self.origin, self.origin[self.next]], axis=1)
+        return frozen(ends)
+
+    @cached_property
+    def face_sizes(self) -> Indices:
+        """(n_faces,) int: how many corners each face has."""
+        return frozen(np.bincount(self.face, minlength=self.n_faces))
+
+    @cached_property
+    def valence(self) -> Indices:
+        """(n_vertices,) int: how many edges meet at each vertex."""
+        return frozen(np.bincount(self.ends.ravel(), minlength=self.n_vertices))
+
+    @cached_property
+    def boundary(self) -> Mask:
+        """(n_edges,) bool: edges with a face on one side only."""
+        mask = np.zeros(self.n_edges, dtype=bool)
+        mask[self.edge[self.twin < 0]] = True
+        return frozen(mask)
+
+    @cached_property
+    def on_boundary(self) -> Mask:
+        """(n_vertices,) bool: vertices at the end of a boundary edge."""
+        mask = np.zeros(self.n_vertices, dtype=bool)
+        mask[self.ends[self.boundary]] = True
+        return frozen(mask)
+
+    @cached_property
+    def extraordinary(self) -> Mask:
+        """(n_vertices,) bool: interior vertices whose valence is not 4 (6 on triangle meshes)."""
+        return frozen(~self.on_boundary & (self.valence > 0) & (self.valence != (6 if self.is_triangular else 4)))
+
+    @property
+    def euler(self) -> int:
+        """V - E + F."""
+        return self.n_vertices - self.n_edges + self.n_faces
+
+    @cached_property
+    def is_triangular(self) -> bool:
+        return bool((self.face_sizes == 3).all())
+
+    @cached_property
+    def is_quadrilateral(self) -> bool:
+        return bool((self.face_sizes == 4).all())
+
+    def loops(self) -> list[list[int]]:
+        """Vertex loops of the faces, in face order (for drawing and export)."""
+        return [loop.tolist() for loop in np.split(self.origin, np.cumsum(self.face_sizes)[:-1])]
+
+
+def _require_faces(sizes: Indices, origin: Indices, face: Indices, n_vertices: int) -> None:
+    """Every face has three corners or more, all of them different and all of them there."""
+    if len(sizes) == 0:
+        raise TopologyError("there are no faces; a mesh needs at least one")
+    if (small := np.flatnonzero(sizes < 3)).size:
+        f = int(small[0])
+        raise TopologyError(f"face {f} has {sizes[f]} corners; a face needs three or more", faces=[f])
+    if (bad := np.flatnonzero((origin < 0) | (origin >= n_vertices))).size:
+        f = int(face[bad[0]])
+        raise TopologyError(
+            f"face {f} names vertex {origin[bad[0]]}, but there are only {n_vertices} vertices (0 to {n_vertices - 1})",
+            faces=[f],
+        )
+    order = np.lexsort((origin, face))
+    twice = (np.diff(origin[order]) == 0) & (np.diff(face[order]) == 0)
+    if twice.any():
+        h = int(order[int(np.flatnonzero(twice)[0])])
+        raise TopologyError(
+            f"face {face[h]} visits vertex {origin[h]} twice; remove the repeated corner", faces=[int(face[h])]
+        )
+
+
+def _paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Indices, Indices]:
+    """Twin and edge of the half-edges from ``a`` to ``b``, and the ends of the edges: the only search there is."""
+    key = np.minimum(a, b) * n + np.maximum(a, b)
+    order = np.argsort(key, kind="stable")
+    first = np.r_[True, np.diff(key[order]) != 0]
+    start = np.flatnonzero(first)
+    count = np.diff(np.r_[start, len(key)])
+    _require_two_faces_an_edge(a, b, face, order, start, count)
+    edge = np.empty(len(key), dtype=np.intp)
+    edge[order] = np.cumsum(first) - 1
+    twin = np.full(len(key), -1, dtype=np.intp)
+    one, other = order[start[count == 2]], order[start[count == 2] + 1]
+    if (same := np.flatnonzero(a[one] == a[other])).size:
+        g, h = int(one[same[0]]), int(other[same[0]])
+        raise TopologyError(
+            f"faces {face[g]} and {face[h]} both run from vertex {a[g]} to vertex {b[g]}; "
+            "reverse the corner order of one of them",
+            faces=[int(face[g]), int(face[h])],
+        )
+    twin[one], twin[other] = other, one
+    return twin, edge, np.stack([a[order[start]], b[order[start]]], axis=1)
+
+
+def _require_two_faces_an_edge(
+    a: Indices, b: Indices, face: Indices, order: Indices, start: Indices, count: Indices
+) -> None:
+    if (many := np.flatnonzero(count > 2)).size:
+        e = many[0]
+        around = [int(face[h]) for h in order[start[e] : start[e] + count[e]]]
+        h = order[start[e]]
+        raise TopologyError(
+            f"the edge between vertices {a[h]} and {b[h]} has {count[e]} faces ({', '.join(map(str, around))}); "
+            "a surface has at most two there, so remove the others or split the edge",
+            faces=around,
+        )
+
+
+def _require_single_fans(t: Topology) -> None:
+    """The faces around every vertex hang together: as many corners as edges, one more edge at the boundary.
+
+    A vertex where ``k`` open fans meet has ``k`` more edges than corners, so counting finds it
+    unless closed fans meet; those are told apart by walking around once.
+    """
+    corners = np.bincount(t.origin, minlength=t.n_vertices)
+    bad = t.valence - corners > 1
+    label = np.arange(t.n_halfedges)
+    around = np.where(t.twin[t.prev] >= 0, t.twin[t.prev], np.arange(t.n_halfedges))
+    for _ in range(int(corners.max(initial=1)).bit_length() + 1):
+        label, around = np.minimum(label, label[around]), around[around]
+    label = _smallest_around(t, label)
+    smallest = np.full(t.n_vertices, t.n_halfedges)
+    np.minimum.at(smallest, t.origin, label)
+    apart = label != smallest[t.origin]
+    if bad.any() or apart.any():
+        v = int(np.flatnonzero(bad)[0]) if bad.any() else int(t.origin[np.flatnonzero(apart)[0]])
+        raise TopologyError(
+            f"at vertex {v} two fans of faces touch without sharing an edge (a bow tie); "
+            "give each fan a vertex of its own",
+            faces=sorted({int(f) for f in t.face[t.origin == v]}),
+            vertices=[v],
+        )
+
+
+def _smallest_around(t: Topology, label: Indices) -> Indices:
+    """Carry the smallest label the other way round too, where an open fan stops the first walk."""
+    around = np.where(t.twin >= 0, t.next[t.twin], np.arange(t.n_halfedges))
+    for _ in range(int(np.bincount(t.origin).max(initial=1)).bit_length() + 1):
+        label, around = np.minimum(label, label[around]), around[around]
+    return label
+
+
+def _crease_sharpness(ends: Indices, creases: Mapping[tuple[int, int], float]) -> Floats:
+    sharpness = np.zeros(len(ends))
+    if creases:
+        number = {frozenset(pair): e for e, pair in enumerate(ends.tolist())}
+        for pair, value in creases.items():
+            if frozenset(pair) not in number:
+                raise TopologyError(f"there is no edge between vertices {pair[0]} and {pair[1]} to crease", vertices=pair)
+            sharpness[number[frozenset(pair)]] = _checked(value)
+    return sharpness
+
+
+def _corner_sharpness(n_vertices: int, corners: Mapping[int, float]) -> Floats:
+    sharpness = np.zeros(n_vertices)
+    for v, value in corners.items():
+        if not 0 <= v < n_vertices:
+            raise TopologyError(f"there is no vertex {v} to sharpen", vertices=[v])
+        sharpness[v] = _checked(value)
+    return sharpness
+
+
+def _checked(sharpness: float) -> float:
+    if not sharpness >= 0:
+        raise TopologyError(f"sharpness {sharpness} is not a number from 0 (smooth) to 10 (infinitely sharp)")
+    return min(float(sharpness), INFINITELY_SHARP)

@@ -1,0 +1,191 @@
+"""A control object carried through the stages of a scheme, ready to be looked at."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from subdivision.arrays import Floats, Indices, Mask, frozen
+from subdivision.rows import Connectivity
+from subdivision.scheme import Scheme
+from subdivision.stage import Role, Stage, Step
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Positions ``points`` (n_vertices, 3) float on a ``topology``: a polygon, a net or a polygon mesh."""
+
+    topology: Any
+    points: Floats
+
+    def __post_init__(self) -> None:
+        points = np.array(self.points, dtype=float)
+        if points.shape != (self.topology.n_vertices, 3):
+            raise ValueError(f"{self.topology.n_vertices} vertices need points of shape (n, 3), not {points.shape}")
+        object.__setattr__(self, "points", frozen(points))
+
+    def moved(self, vertex: int, to: Floats) -> "Mesh":
+        """The same connectivity with one vertex elsewhere."""
+        points = self.points.copy()
+        points[vertex] = to
+        return replace(self, points=points)
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """What there is to see at one instant of a trace.
+
+    Attributes
+    ----------
+    topology : Connectivity
+        What connects the first ``topology.n_vertices`` points; the others are helpers.
+    points : (n, 3) float
+        Where every point is now.
+    start : (n, 3) float
+        Where it was when the stage began (newborn points: where they are born).
+    birth : (n,) float in 0..1
+        How much of it is there: newborn points grow.
+    roles, roles_before : (n,) int
+        What each point is becoming, and was.
+    stage : Stage or None
+        The stage under way, or the one just over; None before the first.
+    progress : float in 0..1
+        How far that stage has come.
+    before : Mesh
+        What the stage began with, its helpers left out.
+    leaving : (m, 3) float
+        Points of ``before`` that nothing continues; they fade as ``progress`` grows.
+    leaving_roles : (m,) int
+    level : int
+        How many subdivision steps are complete.
+    """
+
+    topology: Any
+    points: Floats
+    start: Floats
+    birth: Floats
+    roles: Indices
+    roles_before: Indices
+    stage: Stage | None
+    progress: float
+    before: Mesh
+    leaving: Floats
+    leaving_roles: Indices
+    level: int
+
+    @property
+    def newborn(self) -> Mask:
+        """(n,) bool: points that the stage under way brings."""
+        return self.birth < 1 if self.stage is None else np.asarray(self.stage.carries < 0)
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """``stages`` depend on the control topology only, so dragging a vertex rebuilds none of them.
+
+    ``levels`` tells, for every stage, which subdivision step (0, 1, ...) it belongs to.
+    """
+
+    control: Mesh
+    scheme: Scheme
+    telling: str
+    stages: tuple[Stage, ...]
+    levels: tuple[int, ...]
+
+    @cached_property
+    def points(self) -> tuple[Floats, ...]:
+        """Positions before the first stage and after each one."""
+        done = [self.control.points]
+        for stage in self.stages:
+            done.append(frozen(stage.operator.apply(done[-1])))
+        return tuple(done)
+
+    @cached_property
+    def whole(self) -> Step:
+        """All stages of all levels, as one product."""
+        return Step(self.stages)
+
+    def step(self, level: int) -> Step:
+        """The stages of one level."""
+        return Step(tuple(s for s, of in zip(self.stages, self.levels, strict=True) if of == level))
+
+    def upto(self, k: int) -> Step:
+        """The first ``k`` stages, as one product."""
+        return Step(self.stages[:k])
+
+    def index(self, stage: Stage) -> int:
+        return next(k for k, s in enumerate(self.stages) if s is stage)
+
+    def begins(self, level: int) -> int:
+        """How many stages come before subdivision step ``level``."""
+        return sum(of < level for of in self.levels)
+
+    def topology_at(self, k: int) -> Connectivity:
+        return self.stages[k - 1].topology if k else self.control.topology
+
+    def mesh_at(self, k: int) -> Mesh:
+        """The control object after ``k`` stages, helpers left out."""
+        topology = self.topology_at(k)
+        return Mesh(topology, self.points[k][: topology.n_vertices])
+
+    def roles_at(self, k: int) -> Indices:
+        return self.stages[k - 1].roles if k else np.zeros(len(self.points[0]), dtype=np.intp)
+
+    def with_control(self, control: Mesh) -> "Trace":
+        """The same stages on moved control points."""
+        return replace(self, control=control)
+
+    def frame(self, at: float) -> Frame:
+        """The frame ``at`` stages into the trace; the fraction is progress through a stage."""
+        at = min(max(at, 0.0), float(len(self.stages)))
+        k = min(int(at), len(self.stages) - 1) if self.stages else 0
+        if at == 0:
+            return self._still()
+        if at == int(at):
+            k = int(at) - 1
+        return self._during(k, at - k)
+
+    def _still(self) -> Frame:
+        n = len(self.points[0])
+        roles = np.full(n, Role.ORIGINAL)
+        none = np.zeros((0, 3))
+        return Frame(
+            self.control.topology, self.points[0], self.points[0], np.ones(n), roles, roles, None, 1.0,
+            self.control, none, np.zeros(0, dtype=np.intp), 0,
+        )  # fmt: skip
+
+    def _during(self, k: int, t: float) -> Frame:
+        stage, before, after = self.stages[k], self.points[k], self.points[k + 1]
+        kept = stage.carries >= 0
+        start, was, birth = after.copy(), stage.roles.copy(), np.full(len(after), t)
+        start[kept], was[kept], birth[kept] = before[stage.carries[kept]], self.roles_at(k)[stage.carries[kept]], 1.0
+        gone = np.ones(len(before), dtype=bool)
+        gone[stage.carries[kept]] = False
+        done = k + 1 == len(self.stages) or self.levels[k + 1] > self.levels[k]
+        return Frame(
+            stage.topology, (1 - t) * start + t * after, start, birth, stage.roles, was, stage, t,
+            self.mesh_at(k), before[gone], self.roles_at(k)[gone], self.levels[k] + (done and t == 1),
+        )  # fmt: skip
+
+
+def trace(scheme: Scheme, control: Mesh, telling: str | None = None, levels: int = 1) -> Trace:
+    """Subdivide ``control`` ``levels`` times and keep every stage on the way."""
+    stages: list[Stage] = []
+    owner: list[int] = []
+    topology = control.topology
+    for level in range(levels):
+        step = scheme.step(topology, telling)
+        stages.extend(step.stages)
+        owner.extend([level] * len(step.stages))
+        topology = step.topology
+    return Trace(control, scheme, telling or next(iter(scheme.tellings)), tuple(stages), tuple(owner))
+
+
+def subdivide(control: Mesh, scheme: Scheme, levels: int) -> Mesh:
+    """The mesh after ``levels`` steps; only the last level is kept."""
+    topology, points = control.topology, control.points
+    for _ in range(levels):
+        step = scheme.step(topology)
+        topology, points = step.topology, step.apply(points)
+    return Mesh(topology, points)
