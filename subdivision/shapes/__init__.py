@@ -1,0 +1,61 @@
+"""Control objects small enough to count by hand: polygons, nets, fragments and solids.
+
+All are centred, about as large as the unit ball, with z up and faces counter-clockwise from
+outside.
+"""
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+from subdivision.shapes.fans import (
+    face_and_ring,
+    quad_fan,
+    quad_sheet,
+    triangle_fan,
+    triangle_sheet,
+    two_triangles_and_ring,
+)
+from subdivision.shapes.nets import cylinder_net, net, torus_net
+from subdivision.shapes.polygons import closed_polygon, hook, polygon
+from subdivision.shapes.solids import (
+    bipyramid,
+    cube,
+    icosahedron,
+    octahedron,
+    plus_sign,
+    quad_bipyramid,
+    tetrahedron,
+    torus,
+    triangle_torus,
+)
+from subdivision.trace import Mesh
+
+SHAPES: Mapping[str, Callable[[], Mesh]] = MappingProxyType({
+    "cube": cube,
+    "plus-sign": plus_sign,
+    "torus": torus,
+    "quad-bipyramid": quad_bipyramid,
+    "quad-fan": lambda: quad_fan(6, rings=2),
+    "quad-sheet": quad_sheet,
+    "tetrahedron": tetrahedron,
+    "octahedron": octahedron,
+    "icosahedron": icosahedron,
+    "bipyramid": bipyramid,
+    "triangle-torus": triangle_torus,
+    "triangle-fan": lambda: triangle_fan(8, rings=2),
+    "triangle-sheet": triangle_sheet,
+    "polygon": polygon,
+    "hook": hook,
+    "closed-polygon": closed_polygon,
+    "net": net,
+    "three-direction-net": lambda: net(diagonal=True),
+    "cylinder-net": cylinder_net,
+    "torus-net": torus_net,
+})  # fmt: skip
+"""Menus and the command line offer these, in this order; words are joined by hyphens."""
+
+__all__ = [
+    "SHAPES", "bipyramid", "closed_polygon", "cube", "cylinder_net", "face_and_ring", "hook", "icosahedron", "net",
+    "octahedron", "plus_sign", "polygon", "quad_bipyramid", "quad_fan", "quad_sheet", "tetrahedron", "torus",
+    "torus_net", "triangle_fan", "triangle_sheet", "triangle_torus", "two_triangles_and_ring",
+]  # fmt: skip

@@ -1,0 +1,38 @@
+"""Rectangular control nets, flat topologically and never flat in space; cylinder and torus by wrapping."""
+
+import numpy as np
+
+from subdivision.rows import Grid
+from subdivision.shapes.build import turns
+from subdivision.trace import Mesh
+
+
+def net(n_s: int = 5, n_t: int = 5, *, diagonal: bool = False) -> Mesh:
+    """A hilly net of ``n_s`` by ``n_t`` points over a square: Figures 2-5 and 8-10; ``diagonal`` for 6 and 7.
+
+    Bicubics and quartics need 4 points a side to make a surface at all, and 5 for it to grow.
+    """
+    x, y = np.meshgrid(np.linspace(-1.2, 1.2, n_s), np.linspace(-1.2, 1.2, n_t), indexing="ij")
+    hill = 0.75 * np.exp(-2.2 * ((x + 0.45) ** 2 + (y - 0.3) ** 2))
+    wave = 0.3 * np.sin(2.3 * x + 0.7 * y + 0.4) - 0.22 * np.cos(1.1 * x - 2.6 * y)
+    z = hill + wave
+    points = np.stack([x, y, z - (z.min() + z.max()) / 2], axis=-1)
+    return Mesh(Grid(n_s, n_t, diagonal=diagonal), points.reshape(-1, 3))
+
+
+def cylinder_net(n_s: int = 6, n_t: int = 6, *, diagonal: bool = False) -> Mesh:
+    """A net wrapped in t to a vase: ``n_s`` rings from the rim down, ``n_t`` points each, counter-clockwise."""
+    down = np.linspace(0, 1, n_s)[:, None]
+    angle = turns(n_t)[None, :]
+    radius = 0.75 - 0.4 * np.cos(2 * np.pi * (down * 0.85 + 0.1)) * (0.55 + 0.6 * down)
+    height = 1.2 * (1 - 2 * down) + 0 * angle
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=-1)
+    return Mesh(Grid(n_s, n_t, wrap_t=True, diagonal=diagonal), points.reshape(-1, 3))
+
+
+def torus_net(n_s: int = 5, n_t: int = 4, *, diagonal: bool = False) -> Mesh:
+    """A net wrapped both ways: ``n_s`` points the long way round, ``n_t`` round the tube; no rim to lose."""
+    around, tube = turns(n_s)[:, None], turns(n_t, start=0.5)[None, :]
+    out, height = 1 + 0.55 * np.cos(tube), 0.55 * np.sin(tube) + 0 * around
+    points = np.stack([out * np.cos(around), out * np.sin(around), height], axis=-1)
+    return Mesh(Grid(n_s, n_t, wrap_s=True, wrap_t=True, diagonal=diagonal), points.reshape(-1, 3))
