@@ -1,0 +1,1 @@
+"""From values to pictures: ``compose`` decides, ``vtk`` and ``vector`` paint.  No Qt here."""

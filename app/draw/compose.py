@@ -1,0 +1,272 @@
+"""From a state to a picture: every decision about what is shown is taken here.
+
+Nothing is painted: the result is a display list, so that a test can read "four weight labels,
+3/8 3/8 1/8 1/8" without a screen, and every painter paints the same.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.draw import diagrams, motion
+from app.draw.picture import Camera, Diagram, Entry, Faces, Label, Lines, Markers, Pane, Picture, Scene, Shape
+from app.draw.theme import NAMES, SHAPES, SIZES, THEMES, Theme
+from app.state import Options, State, level_of
+from lessons.script import Beat, Kind, Look, View
+from subdivision import Frame, Role, Stencil, Trace
+from subdivision.arrays import Floats, Indices, Mask
+from subdivision.exact import spelled
+
+MARKER = 0.036
+"""Radius of an original point, relative to the radius of the control object."""
+
+CROWDED = 0.2
+"""... but no more than this part of the typical edge."""
+
+FEW = 60
+"""Up to so many points, ids and valences are written at them."""
+
+
+def compose(state: State) -> Picture:
+    """The picture of a state."""
+    theme, beat = THEMES[state.options.theme], state.now
+    panes = tuple(
+        Pane(_content(state, view, theme), rect, view.title)
+        for view, rect in zip(beat.views, _rects(beat), strict=True)
+    )
+    return Picture(
+        panes=panes,
+        background=theme.background,
+        ink=theme.ink,
+        muted=theme.muted,
+        legend=legend(panes, theme) if state.options.legend else (),
+        title=state.lesson.title,
+        caption=beat.text,
+        formula=beat.formula,
+        corner=_counts(state),
+        stroke=theme.stroke,
+        scale=theme.type,
+    )
+
+
+def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
+    """One entry for each kind of point that is in the picture, in the order of the roles."""
+    there = {m.name for p in panes if isinstance(p.content, Scene) for m in p.content.markers if len(m.points)}
+    return tuple(Entry(SHAPES[r], theme.roles[r], NAMES[r]) for r in Role if NAMES[r] in there)
+
+
+def camera(trace: Trace, look: Look) -> Camera:
+    """A camera that sees the whole control object in the direction of ``look``; it ignores the stage on purpose."""
+    points = trace.control.points
+    centre = (points.min(axis=0) + points.max(axis=0)) / 2
+    radius = max(float(np.linalg.norm(points - centre, axis=1).max()), 1e-9)
+    azimuth, elevation = np.radians(look.azimuth), np.radians(look.elevation)
+    towards = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+    up = np.array([-np.sin(elevation) * np.cos(azimuth), -np.sin(elevation) * np.sin(azimuth), np.cos(elevation)])
+    reach = 1.08 * radius / look.zoom
+    if look.parallel:
+        return Camera(centre + 10 * radius * towards, centre, up, scale=_half_height(points, centre, up) / look.zoom)
+    return Camera(centre + reach / np.sin(np.radians(15.0)) * towards, centre, up)
+
+
+def scene(frame: Frame, trace: Trace, look: Look, options: Options, theme: Theme, stencil: Stencil | None, span: int) -> Scene:
+    """One instant of a trace in space."""
+    radius = _marker_radius(trace, frame)
+    faint = _faint(frame)
+    faces = _faces(frame, theme) if options.surface else ()
+    lines = (*_net(frame, theme, options), *_ghost(frame, theme, options))
+    markers = (*_ghost_markers(frame, theme, options, radius), *_markers(frame, theme, options, radius, faint))
+    labels: tuple[Label, ...] = _numbers(frame, theme, options)
+    if stencil is not None and options.weights:
+        picked, rays, words = _pointed_out(frame, trace, stencil, span, theme, radius)
+        markers, lines, labels = (*markers, *picked), (*lines, *rays), (*labels, *words)
+    return Scene(camera(trace, look), faces, lines, markers, labels)
+
+
+def stencil_of(state: State, view: View) -> tuple[Stencil | None, int]:
+    """The row to point out: of the point in focus, else the lesson's own at the end of its beat; and its span."""
+    trace, at = state.trace(view), view.at(state.progress)
+    k = int(at)
+    if state.focus is not None and at == k and k > 0 and state.focus < trace.stages[k - 1].n_points:
+        begin = trace.begins(trace.levels[k - 1])
+        return type(trace.whole)(trace.stages[begin:k]).stencil(state.focus), k - begin
+    if state.now.stencil is not None and state.progress == 1:
+        return state.now.stencil, state.now.span
+    return None, 1
+
+
+def _content(state: State, view: View, theme: Theme) -> Scene | Diagram:
+    trace, at = state.trace(view), view.at(state.progress)
+    if view.kind is Kind.DIAGRAM:
+        return diagrams.diagram(trace, at, theme)
+    stencil, span = stencil_of(state, view)
+    frame = trace.frame(motion.eased(at))
+    return scene(frame, trace, state.now.look, state.options, theme, stencil, span)
+
+
+def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:
+    n = len(beat.views)
+    columns = n if n <= 3 else (n + 1) // 2
+    rows = -(-n // columns)
+    return tuple(((k % columns) / columns, (k // columns) / rows, 1 / columns, 1 / rows) for k in range(n))
+
+
+def _counts(state: State) -> str:
+    view = state.now.lead
+    t = state.trace(view).topology_at(int(view.at(state.progress)))
+    parts = [f"V {t.n_vertices}", f"E {t.n_edges}"] + ([f"F {t.n_faces}", f"χ {t.euler}"] if t.n_faces else [])
+    return f"level {level_of(state)}   " + "  ".join(parts)
+
+
+def _half_height(points: Floats, centre: Floats, up: Floats) -> float:
+    right = np.cross([0.0, 0.0, 1.0], up)
+    tall, wide = np.abs((points - centre) @ up).max(), np.abs((points - centre) @ right).max()
+    return float(1.25 * max(tall, wide * 0.62, 1e-9))
+
+
+def _marker_radius(trace: Trace, frame: Frame) -> float:
+    points = trace.control.points
+    size = float(np.linalg.norm(np.ptp(points, axis=0))) / 2
+    ends = frame.topology.ends
+    lengths = np.linalg.norm(frame.points[ends[:, 0]] - frame.points[ends[:, 1]], axis=1)
+    apart = lengths[lengths > 1e-6 * max(size, 1e-9)]
+    typical = float(np.median(apart)) if apart.size else size
+    return float(min(MARKER * size, CROWDED * typical))
+
+
+def _faint(frame: Frame) -> Mask:
+    """(n,) bool: points that only support the surface: every face round them is hidden."""
+    t, n = frame.topology, len(frame.points)
+    if not t.hidden.any():
+        return np.zeros(n, dtype=bool)
+    shown = np.zeros(n, dtype=bool)
+    shown[t.origin[~t.hidden[np.repeat(np.arange(t.n_faces), t.face_sizes)]]] = True
+    if n > t.n_vertices:
+        shown[t.n_vertices :] = _shown_helpers(frame)
+    return ~shown
+
+
+def _shown_helpers(frame: Frame) -> Mask:
+    """A helper belongs to the face, or to the corner of a face, that has its number."""
+    t, helpers = frame.topology, len(frame.points) - frame.topology.n_vertices
+    face = np.arange(t.n_faces) if helpers == t.n_faces else np.repeat(np.arange(t.n_faces), t.face_sizes)
+    return np.asarray(~t.hidden[face]) if len(face) == helpers else np.ones(helpers, dtype=bool)
+
+
+def _faces(frame: Frame, theme: Theme) -> tuple[Faces, ...]:
+    t = frame.topology
+    if not t.n_faces:
+        return ()
+    corner_hidden = t.hidden[np.repeat(np.arange(t.n_faces), t.face_sizes)]
+    points = frame.points[: t.n_vertices]
+    shown = Faces(points, t.face_sizes[~t.hidden], t.origin[~corner_hidden], theme.surface)
+    return (shown,) if len(shown.sizes) else ()
+
+
+def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
+    """The edges; those only hidden faces have are faint, those a stage brings grow in, sharp ones are heavy."""
+    if not options.net:
+        return ()
+    t = frame.topology
+    points, ends = frame.points[: t.n_vertices], t.ends
+    faint = _faint(frame)[: t.n_vertices][ends].any(axis=1)
+    new = frame.newborn[: t.n_vertices][ends].all(axis=1)
+    sharp = _sharp(t)
+    growth = float(frame.progress)
+    width = 2.6 * (1.0 if len(ends) < 800 else 0.6) * theme.stroke
+    parts = [
+        Lines(points, ends[faint], theme.faint, 0.7 * width),
+        Lines(points, ends[~faint & ~new & ~sharp], theme.edge if t.n_faces else theme.net, width),
+        Lines(points, ends[~faint & new & ~sharp], theme.edge, width, growth),
+        Lines(points, ends[~faint & sharp], theme.ink, 2.2 * width),
+    ]
+    return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
+
+
+def _sharp(t: object) -> Mask:
+    """(n_edges,) bool: inner edges with a crease on them."""
+    sharpness = getattr(t, "edge_sharpness", None)
+    if sharpness is None:
+        return np.zeros(len(t.ends), dtype=bool)  # type: ignore[attr-defined]
+    return np.asarray((sharpness > 0) & ~t.boundary)  # type: ignore[attr-defined]
+
+
+def _ghost(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
+    """What the stage began with, while and after points leave it."""
+    if not options.ghost or frame.stage is None or not frame.stage.moves:
+        return ()
+    before = frame.before
+    return (Lines(before.points, before.topology.ends, theme.net, 1.6 * theme.stroke, 0.55, dashed=True),)
+
+
+def _ghost_markers(frame: Frame, theme: Theme, options: Options, radius: float) -> tuple[Markers, ...]:
+    """Small faint marks where moving points came from, and what is leaving."""
+    if not options.ghost or frame.stage is None:
+        return ()
+    gone = len(frame.leaving)
+    marks = []
+    if gone and frame.progress < 1:
+        none = np.full(gone, -1)
+        size = np.array([SIZES[Role(r)] for r in frame.leaving_roles]) * radius
+        fade = np.full(gone, 1.0 - frame.progress)
+        for role in np.unique(frame.leaving_roles):
+            of = frame.leaving_roles == role
+            marks.append(Markers(
+                frame.leaving[of], SHAPES[Role(role)], theme.roles[Role(role)], size[of], fade[of], none[of], "",
+            ))  # fmt: skip
+    return tuple(marks)
+
+
+def _markers(frame: Frame, theme: Theme, options: Options, radius: float, faint: Mask) -> tuple[Markers, ...]:
+    """The points by role; a point that changes its role wears the new one from the middle of the stage on."""
+    roles = np.where(frame.progress < 0.5, frame.roles_before, frame.roles)
+    if frame.stage is not None and not frame.stage.moves:
+        roles = frame.roles
+    size = np.array([SIZES[Role(r)] for r in range(len(Role))])[roles] * radius * motion.grown(frame.birth)
+    found = []
+    for role in Role:
+        if role is Role.CENTROID and not options.helpers:
+            continue
+        of = (roles == role) & ~faint & (size > 0)
+        if of.any():
+            ids = np.flatnonzero(of)
+            found.append(Markers(
+                frame.points[of], SHAPES[role], theme.roles[role], size[of], np.ones(len(ids)), ids, NAMES[role],
+            ))  # fmt: skip
+    of = faint & (roles == Role.ORIGINAL) & (size > 0)
+    if of.any():
+        found.append(Markers(
+            frame.points[of], Shape.SPHERE, theme.faint, 0.6 * size[of], np.ones(of.sum()), np.flatnonzero(of), "",
+        ))  # fmt: skip
+    return tuple(found)
+
+
+def _numbers(frame: Frame, theme: Theme, options: Options) -> tuple[Label, ...]:
+    """Point numbers, or valences at vertices, where there are few enough to be read."""
+    n = frame.topology.n_vertices
+    if n > FEW or not (options.labels or options.valences):
+        return ()
+    texts = [f"v{k}" if options.labels else "" for k in range(n)]
+    if options.valences:
+        texts = [f"{text} n={v}".strip() for text, v in zip(texts, frame.topology.valence, strict=True)]
+    return tuple(Label(p, text, theme.ink) for p, text in zip(frame.points[:n], texts, strict=True))
+
+
+def _pointed_out(
+    frame: Frame, trace: Trace, stencil: Stencil, span: int, theme: Theme, radius: float
+) -> tuple[list[Markers], list[Lines], list[Label]]:
+    """The point of a stencil, rays from its contributors, and the exact weight at each of them."""
+    k = trace.index(frame.stage) + 1 if frame.stage is not None else 0
+    parents = trace.points[max(k - span, 0)][stencil.parents]
+    point = frame.points[stencil.point]
+    weights = np.abs(stencil.weights)
+    size = radius * (0.9 + 1.3 * np.sqrt(weights / weights.max()))
+    none = np.full(len(parents), -1)
+    rings = Markers(parents, Shape.SPHERE, theme.selection, size, np.full(len(parents), 0.55), none, "contributor")
+    chosen = Markers(point[None], Shape.HALO, theme.selection, np.array([1.5 * radius]), np.ones(1), none[:1], "pointed out")
+    ends = np.stack([np.arange(len(parents)), np.full(len(parents), len(parents))], axis=1)
+    rays = Lines(np.vstack([parents, point]), ends, theme.selection, 3.0 * theme.stroke, 0.8)
+    words = [
+        Label(p, spelled(w), theme.ink, 26.0) for p, (_, w) in zip(parents, stencil.terms, strict=True)
+    ]
+    return [rings, chosen], [rays], words

@@ -1,0 +1,210 @@
+"""The display list: all that is on a picture, as values.  Above it nothing paints, below it nothing decides.
+
+Lengths in space are in the units of the control object, so that they scale with it; strokes and
+type are in *logical points* (1/1000 of the picture's height), so that they scale with the picture.
+"""
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TypeAlias
+
+import numpy as np
+
+from subdivision.arrays import Floats, Indices
+
+Colour: TypeAlias = tuple[float, float, float]
+"""Red, green, blue in 0..1."""
+
+
+class Shape(Enum):
+    """Marker shapes; each role has its own, so that colour is never the only difference."""
+
+    SPHERE = "sphere"
+    DIAMOND = "diamond"
+    CUBE = "cube"
+    BEAD = "bead"
+    """A small sphere with a ring: a helper, never a vertex."""
+    HALO = "halo"
+    """A sphere with a halo round it: a point that has moved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Markers:
+    """Points of one kind.
+
+    ``points`` (n, 3); ``radius`` (n,) in units of space; ``opacity`` (n,) in 0..1;
+    ``ids`` (n,) point numbers in the trace (-1: not to be picked).
+    """
+
+    points: Floats
+    shape: Shape
+    colour: Colour
+    radius: Floats
+    opacity: Floats
+    ids: Indices
+    name: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """Straight strokes between ``points`` (n, 3) along ``pairs`` (m, 2), ``width`` logical points thick."""
+
+    points: Floats
+    pairs: Indices
+    colour: Colour
+    width: float
+    opacity: float = 1.0
+    dashed: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Faces:
+    """Polygons: ``sizes`` (n_faces,) and ``corners`` laid end to end, on ``points`` (n, 3)."""
+
+    points: Floats
+    sizes: Indices
+    corners: Indices
+    colour: Colour
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """Words at a point of space; ``away`` in logical points moves them off it, right and up."""
+
+    at: Floats
+    text: str
+    colour: Colour
+    size: float = 22.0
+    away: tuple[float, float] = (14.0, 14.0)
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """A view of space: ``position``, ``focal`` point and ``up`` (3,); ``angle`` in degrees from top to bottom.
+
+    A parallel camera has ``scale``: half the visible height in units of space; else 0.
+    """
+
+    position: Floats
+    focal: Floats
+    up: Floats
+    angle: float = 30.0
+    scale: float = 0.0
+
+    def project(self, points: Floats, width: float, height: float) -> Floats:
+        """(n, 3): pixels right and down from the upper left, and depth away from the eye."""
+        ahead = _unit(self.focal - self.position)
+        right = _unit(np.cross(ahead, self.up))
+        above = np.cross(right, ahead)
+        away = np.asarray(points, dtype=float).reshape(-1, 3) - self.position
+        depth = away @ ahead
+        half = np.full(len(away), self.scale) if self.scale else np.maximum(depth, 1e-9) * np.tan(np.radians(self.angle) / 2)
+        x, y = away @ right / half, away @ above / half
+        return np.stack([width / 2 + x * height / 2, height / 2 - y * height / 2, depth], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """One pane in space."""
+
+    camera: Camera
+    faces: tuple[Faces, ...] = ()
+    lines: tuple[Lines, ...] = ()
+    markers: tuple[Markers, ...] = ()
+    labels: tuple[Label, ...] = ()
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box of a diagram round ``(x, y)``, y downwards, in cells; ``text`` may hold mathematics between dollars."""
+
+    x: float
+    y: float
+    text: str
+    fill: Colour
+    ink: Colour
+    stroke: Colour
+    width: float = 0.9
+    height: float = 0.7
+    opacity: float = 1.0
+    point: int = -1
+
+
+@dataclass(frozen=True)
+class Link:
+    """A stroke of a diagram from one place to another, in cells."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    colour: Colour
+    opacity: float = 1.0
+    width: float = 2.0
+
+
+@dataclass(frozen=True)
+class Note:
+    """Words in a diagram, in cells; ``align`` is left, center or right."""
+
+    x: float
+    y: float
+    text: str
+    colour: Colour
+    align: str = "left"
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """One pane of boxes; ``cells`` is (left, top, right, bottom) of what must be visible."""
+
+    cells: tuple[float, float, float, float]
+    boxes: tuple[Box, ...] = ()
+    links: tuple[Link, ...] = ()
+    notes: tuple[Note, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Pane:
+    """A part of the picture, in fractions of it from the upper left: x, y, width, height."""
+
+    content: Scene | Diagram
+    rect: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
+    title: str = ""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A line of the legend."""
+
+    shape: Shape
+    colour: Colour
+    text: str
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """Everything to paint: panes, and the words that belong to the whole."""
+
+    panes: tuple[Pane, ...]
+    background: Colour
+    ink: Colour
+    muted: Colour
+    legend: tuple[Entry, ...] = ()
+    title: str = ""
+    caption: str = ""
+    formula: str = ""
+    corner: str = ""
+    stroke: float = 1.0
+    scale: float = field(default=1.0)
+
+    @property
+    def scenes(self) -> tuple[Scene, ...]:
+        return tuple(p.content for p in self.panes if isinstance(p.content, Scene))
+
+
+def _unit(vector: Floats) -> Floats:
+    return np.asarray(vector / max(float(np.linalg.norm(vector)), 1e-300), dtype=float)

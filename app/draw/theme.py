@@ -1,0 +1,118 @@
+"""Colours and strokes: one house palette, safe for colour-blind eyes [OI08]_, in three themes.
+
+A colour means one thing in every lesson: original black (white on dark), edge point orange,
+face point vermilion, centroid green, moved point blue, selection purple.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from app.draw.picture import Colour, Shape
+from subdivision import Role
+
+
+def rgb(code: str) -> Colour:
+    """``#RRGGBB`` as numbers in 0..1."""
+    r, g, b = (int(code[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return r, g, b
+
+
+ORANGE, VERMILION, GREEN, BLUE, PURPLE = map(rgb, ("#E69F00", "#D55E00", "#009E73", "#0072B2", "#CC79A7"))
+
+SHAPES: Mapping[Role, Shape] = {
+    Role.ORIGINAL: Shape.SPHERE,
+    Role.EDGE: Shape.DIAMOND,
+    Role.FACE: Shape.CUBE,
+    Role.CENTROID: Shape.BEAD,
+    Role.MOVED: Shape.HALO,
+}
+
+NAMES: Mapping[Role, str] = {
+    Role.ORIGINAL: "original",
+    Role.EDGE: "edge point",
+    Role.FACE: "face point",
+    Role.CENTROID: "centroid",
+    Role.MOVED: "moved",
+}
+
+SIZES: Mapping[Role, float] = {
+    Role.ORIGINAL: 1.0,
+    Role.EDGE: 1.15,
+    Role.FACE: 0.95,
+    Role.CENTROID: 0.62,
+    Role.MOVED: 1.0,
+}
+"""Marker radius relative to an original's, so that all look equally heavy."""
+
+
+@dataclass(frozen=True)
+class Theme:
+    """What every painter needs to know about looks."""
+
+    name: str
+    background: Colour
+    panel: Colour
+    ink: Colour
+    muted: Colour
+    accent: Colour
+    surface: Colour
+    edge: Colour
+    net: Colour
+    faint: Colour
+    selection: Colour
+    roles: Mapping[Role, Colour]
+    stroke: float = 1.0
+    type: float = 1.0
+
+
+LIGHT = Theme(
+    name="light",
+    background=rgb("#FAF8F5"),
+    panel=rgb("#F1EEE9"),
+    ink=rgb("#1B1B1B"),
+    muted=rgb("#5F5B55"),
+    accent=BLUE,
+    surface=rgb("#E4DED4"),
+    edge=rgb("#6F6961"),
+    net=rgb("#8A837A"),
+    faint=rgb("#C9C3B9"),
+    selection=rgb("#A8467C"),
+    roles={Role.ORIGINAL: rgb("#111111"), Role.EDGE: ORANGE, Role.FACE: VERMILION, Role.CENTROID: GREEN, Role.MOVED: BLUE},
+)
+
+DARK = Theme(
+    name="dark",
+    background=rgb("#17191D"),
+    panel=rgb("#202328"),
+    ink=rgb("#F2F2F0"),
+    muted=rgb("#A9ABB0"),
+    accent=rgb("#56B4E9"),
+    surface=rgb("#4A4F58"),
+    edge=rgb("#A3A9B3"),
+    net=rgb("#8B919B"),
+    faint=rgb("#4B5058"),
+    selection=PURPLE,
+    roles={
+        Role.ORIGINAL: rgb("#FFFFFF"), Role.EDGE: ORANGE, Role.FACE: rgb("#F0733A"),
+        Role.CENTROID: rgb("#1FC797"), Role.MOVED: rgb("#56B4E9"),
+    },
+)  # fmt: skip
+
+PROJECTOR = Theme(
+    name="projector",
+    background=rgb("#FFFFFF"),
+    panel=rgb("#FFFFFF"),
+    ink=rgb("#000000"),
+    muted=rgb("#3A3A3A"),
+    accent=BLUE,
+    surface=rgb("#E8E8E8"),
+    edge=rgb("#222222"),
+    net=rgb("#444444"),
+    faint=rgb("#BBBBBB"),
+    selection=rgb("#9B3A70"),
+    roles=LIGHT.roles,
+    stroke=1.5,
+    type=1.15,
+)
+
+THEMES: Mapping[str, Theme] = {t.name: t for t in (LIGHT, DARK, PROJECTOR)}

@@ -1,0 +1,298 @@
+"""The whole state of the program as one value, and the only ways to change it.
+
+No Qt here: a transition is a function from a state to the next one, so undo is a list and a
+test is an equality.  ``app.gui.session`` wraps it in the one signal that views listen to.
+
+A lesson is walked from *stop* to *stop*: the end of every stage of every beat.  Going on plays
+the stage between; going back plays it backwards.
+"""
+
+from dataclasses import dataclass, field, replace
+from functools import cache
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from lessons.script import Beat, Lesson, View
+from subdivision import Mesh, Trace
+
+Edits: TypeAlias = tuple[tuple[int, tuple[float, float, float]], ...]
+"""Control points that were dragged: (vertex, where to), one entry a vertex."""
+
+STILL = 0.5
+"""How long a still is on the timeline; a stage is 1."""
+
+
+@dataclass(frozen=True)
+class Stop:
+    """A place where playing rests: ``at`` stages into the trace, in beat number ``beat``."""
+
+    beat: int
+    at: float
+
+
+@dataclass(frozen=True)
+class Segment:
+    """One stage, or one still, on the timeline."""
+
+    beat: int
+    start: float
+    stop: float
+    begin: float
+    end: float
+    name: str
+    level: int
+    ends_level: bool
+
+
+@dataclass(frozen=True)
+class Options:
+    """What is shown, and how."""
+
+    surface: bool = True
+    net: bool = True
+    ghost: bool = True
+    helpers: bool = True
+    weights: bool = True
+    labels: bool = False
+    valences: bool = False
+    legend: bool = True
+    theme: str = "light"
+    speed: float = 1.0
+    through: bool = False
+    presenting: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Where we are: the lesson, the beat, how far into it, what is pointed at, what was dragged.
+
+    ``goal`` is where playing will rest; None while it rests.
+    """
+
+    lesson: Lesson
+    beat: int = 0
+    at: float = 0.0
+    goal: Stop | None = None
+    focus: int | None = None
+    edits: Edits = ()
+    options: Options = field(default_factory=Options)
+
+    @property
+    def now(self) -> Beat:
+        return self.lesson.beats[self.beat]
+
+    @property
+    def progress(self) -> float:
+        """0..1 through the beat."""
+        return self.now.progress(self.at)
+
+    @property
+    def is_playing(self) -> bool:
+        return self.goal is not None
+
+    def trace(self, view: View) -> Trace:
+        """The view's trace on the control points as they were dragged."""
+        return edited(view.trace, self.edits)
+
+
+def edited(trace: Trace, edits: Edits) -> Trace:
+    """The trace with control points moved; itself where none is."""
+    if not edits:
+        return trace
+    points = trace.control.points.copy()
+    for vertex, to in edits:
+        if vertex < len(points):
+            points[vertex] = to
+    return trace.with_control(Mesh(trace.control.topology, points))
+
+
+# -- the way through a lesson -----------------------------------------------------------------
+
+
+@cache
+def stops(lesson: Lesson) -> tuple[Stop, ...]:
+    """Every place where playing rests, in order.  A played beat rests after each of its stages."""
+    found: list[Stop] = []
+    for b, beat in enumerate(lesson.beats):
+        whole = [float(k) for k in range(int(np.floor(beat.start)) + 1, int(np.ceil(beat.stop)))]
+        rests = [beat.stop] if beat.is_still else [*whole, beat.stop]
+        if b == 0 and not beat.is_still:
+            rests.insert(0, beat.start)
+        found.extend(Stop(b, at) for at in rests)
+    return tuple(found)
+
+
+@cache
+def segments(lesson: Lesson) -> tuple[Segment, ...]:
+    """The timeline: one segment for each stage played and each still."""
+    found: list[Segment] = []
+    here = 0.0
+    for b, beat in enumerate(lesson.beats):
+        trace = beat.lead.trace
+        if beat.is_still:
+            level, _ = _level(trace, beat.start)
+            found.append(Segment(b, beat.start, beat.stop, here, here + STILL, "", level, False))
+            here += STILL
+        for k in range(int(beat.start), int(np.ceil(beat.stop)) if not beat.is_still else 0):
+            level, ends = _level(trace, k + 1)
+            found.append(Segment(b, k, k + 1, here, here + 1, trace.stages[k].name, level, ends))
+            here += 1
+    return tuple(found)
+
+
+def axis_of(state: State) -> float:
+    """Where the state stands on the timeline."""
+    mine = [s for s in segments(state.lesson) if s.beat == state.beat]
+    for s in mine:
+        if s.start <= state.at <= s.stop:
+            return s.end if s.start == s.stop else s.begin + (state.at - s.start) * (s.end - s.begin)
+    return mine[-1].end
+
+
+def level_of(state: State) -> int:
+    """How many subdivision steps are complete."""
+    return _level(state.now.lead.trace, float(np.floor(state.at)))[0]
+
+
+def _level(trace: Trace, at: float) -> tuple[int, bool]:
+    """Steps complete after ``at`` stages, and whether one ends just there."""
+    k = int(at)
+    if k == 0:
+        return 0, False
+    ends = k == len(trace.stages) or trace.levels[k] > trace.levels[k - 1]
+    return trace.levels[k - 1] + ends, ends
+
+
+# -- transitions ------------------------------------------------------------------------------
+
+
+def start(lesson: Lesson, options: Options | None = None) -> State:
+    """The lesson at its first stop."""
+    return at_stop(State(lesson, options=options or Options()), stops(lesson)[0])
+
+
+def open_lesson(state: State, lesson: Lesson, step: int = 0) -> State:
+    """Another lesson at its stop number ``step`` (from 0), same options."""
+    places = stops(lesson)
+    return at_stop(replace(state, lesson=lesson, edits=()), places[min(max(step, 0), len(places) - 1)])
+
+
+def at_stop(state: State, stop: Stop) -> State:
+    """Rest at a stop."""
+    return replace(state, beat=stop.beat, at=stop.at, goal=None, focus=None)
+
+
+def rest(state: State) -> State:
+    """Pause where we are."""
+    return replace(state, goal=None)
+
+
+def settle(state: State) -> State:
+    """Finish at once what is playing."""
+    return at_stop(state, state.goal) if state.goal else state
+
+
+def forward(state: State) -> State:
+    """Play to the next stop; if playing already, be there at once and play on."""
+    state = settle(state)
+    later = [s for s in stops(state.lesson) if (s.beat, s.at) > (state.beat, state.at)]
+    if not later:
+        return state
+    goal = later[0]
+    beat = state.lesson.beats[goal.beat]
+    if goal.beat == state.beat:
+        return replace(state, goal=goal)
+    return at_stop(state, goal) if beat.is_still else replace(state, beat=goal.beat, at=beat.start, goal=goal, focus=None)
+
+
+def back(state: State) -> State:
+    """Play backwards to the stop before; if playing already, be there at once and go on back."""
+    state = settle(state)
+    earlier = [s for s in stops(state.lesson) if (s.beat, s.at) < (state.beat, state.at)]
+    if not earlier:
+        return state
+    return at_stop(state, earlier[-1]) if state.now.is_still else replace(state, goal=earlier[-1])
+
+
+def skip(state: State, by: int) -> State:
+    """``by`` stops on or back, without playing."""
+    state, places = settle(state), stops(state.lesson)
+    if by > 0:
+        beyond = [s for s in places if (s.beat, s.at) > (state.beat, state.at)]
+        return at_stop(state, beyond[min(by, len(beyond)) - 1]) if beyond else state
+    before = [s for s in places if (s.beat, s.at) < (state.beat, state.at)]
+    return at_stop(state, before[max(len(before) + by, 0)]) if before else state
+
+
+def first(state: State) -> State:
+    """The first stop of the lesson."""
+    return at_stop(state, stops(state.lesson)[0])
+
+
+def last(state: State) -> State:
+    """The last stop of the lesson."""
+    return at_stop(state, stops(state.lesson)[-1])
+
+
+def turn_level(state: State, by: int) -> State:
+    """The nearest stop where one more (or one fewer) subdivision step is complete."""
+    here = level_of(settle(state))
+    places = stops(state.lesson)
+    levels = [_level(state.lesson.beats[s.beat].lead.trace, s.at)[0] for s in places]
+    wanted = [s for s, level in zip(places, levels, strict=True) if level == here + by]
+    later = [s for s in wanted if (s.beat, s.at) > (state.beat, state.at)]
+    earlier = [s for s in wanted if (s.beat, s.at) < (state.beat, state.at)]
+    nearest = later[:1] if by > 0 else earlier[-1:]
+    return at_stop(state, nearest[0]) if nearest else (last(state) if by > 0 else first(state))
+
+
+def toggle_play(state: State) -> State:
+    """Pause, or play to the next stop; at the end of the lesson, from its beginning."""
+    if state.is_playing:
+        return rest(state)
+    onward = forward(state)
+    return onward if (onward.beat, onward.at, onward.goal) != (state.beat, state.at, state.goal) else forward(first(state))
+
+
+def tick(state: State, stages: float) -> State:
+    """Playing goes on by a number of ``stages`` (0.02, say), and rests at the goal or goes for the next one."""
+    if state.goal is None:
+        return state
+    back_there = (state.goal.beat, state.goal.at) < (state.beat, state.at)
+    end = state.goal.at if state.goal.beat == state.beat else state.now.start
+    at = max(state.at - stages, end) if back_there else min(state.at + stages, end)
+    if at != end:
+        return replace(state, at=at)
+    settled = at_stop(state, state.goal)
+    return forward(settled) if state.options.through and not back_there else settled
+
+
+def seek(state: State, axis: float) -> State:
+    """Scrub: be ``axis`` along the timeline."""
+    parts = segments(state.lesson)
+    axis = min(max(axis, 0.0), parts[-1].end)
+    s = next(s for s in parts if axis <= s.end)
+    at = s.start + (axis - s.begin) / (s.end - s.begin) * (s.stop - s.start)
+    return replace(state, beat=s.beat, at=at, goal=None, focus=None)
+
+
+def look(state: State, point: int | None) -> State:
+    """Point at ``point`` of the leading view: its stencil is shown; None: at nothing."""
+    return replace(state, focus=point)
+
+
+def drag(state: State, vertex: int, to: tuple[float, float, float]) -> State:
+    """Move a control point; everything downstream follows."""
+    kept = tuple((v, p) for v, p in state.edits if v != vertex)
+    return replace(state, edits=(*kept, (vertex, to)))
+
+
+def choose(state: State, **options: Any) -> State:
+    """Change options by name."""
+    return replace(state, options=replace(state.options, **options))
+
+
+def toggle(state: State, option: str) -> State:
+    """Switch one of the yes-or-no options."""
+    return choose(state, **{option: not getattr(state.options, option)})
