@@ -135,5 +135,5 @@ def _dome(polar: Floats) -> Floats:
     """(n, 3): places given by radius and turns, scaled to radius 1.4 and raised like a tent that hangs a little."""
     radius = 1.4 * polar[:, 0] / polar[:, 0].max()
     angle = 2 * np.pi * polar[:, 1]
-    z = 0.45 - 0.45 * radius**1.6
+    z = 0.35 - 0.4 * radius**1.5
     return np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=1)

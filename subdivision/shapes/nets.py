@@ -13,18 +13,16 @@ def net(n_s: int = 5, n_t: int = 5, *, diagonal: bool = False) -> Mesh:
     Bicubics and quartics need 4 points a side to make a surface at all, and 5 for it to grow.
     """
     x, y = np.meshgrid(np.linspace(-1.2, 1.2, n_s), np.linspace(-1.2, 1.2, n_t), indexing="ij")
-    hill = 0.75 * np.exp(-2.2 * ((x + 0.45) ** 2 + (y - 0.3) ** 2))
-    wave = 0.3 * np.sin(2.3 * x + 0.7 * y + 0.4) - 0.22 * np.cos(1.1 * x - 2.6 * y)
-    z = hill + wave
+    z = 0.4 * np.sin(2.1 * x + 1.1 * y - 0.6) + 0.3 * np.sin(1.3 * x - 1.8 * y + 1.8)
     points = np.stack([x, y, z - (z.min() + z.max()) / 2], axis=-1)
     return Mesh(Grid(n_s, n_t, diagonal=diagonal), points.reshape(-1, 3))
 
 
-def cylinder_net(n_s: int = 6, n_t: int = 6, *, diagonal: bool = False) -> Mesh:
+def cylinder_net(n_s: int = 7, n_t: int = 6, *, diagonal: bool = False) -> Mesh:
     """A net wrapped in t to a vase: ``n_s`` rings from the rim down, ``n_t`` points each, counter-clockwise."""
     down = np.linspace(0, 1, n_s)[:, None]
     angle = turns(n_t)[None, :]
-    radius = 0.75 - 0.4 * np.cos(2 * np.pi * (down * 0.85 + 0.1)) * (0.55 + 0.6 * down)
+    radius = 0.72 + 0.33 * np.sin(2 * np.pi * (down + 0.45))
     height = 1.2 * (1 - 2 * down) + 0 * angle
     points = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=-1)
     return Mesh(Grid(n_s, n_t, wrap_t=True, diagonal=diagonal), points.reshape(-1, 3))

@@ -33,7 +33,7 @@ def plus_sign() -> Mesh:
 
 def tetrahedron() -> Mesh:
     """Four triangles, standing on one: V/E/F 4/6/4, valence 3 everywhere."""
-    base = [(np.sqrt(2) * np.cos(a), np.sqrt(2) * np.sin(a), -0.5) for a in turns(3)]
+    base = [(np.sqrt(2) * np.cos(a), np.sqrt(2) * np.sin(a), -0.5) for a in turns(3, start=0.5)]
     return mesh([*base, (0.0, 0.0, 1.5)], [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]])
 
 
