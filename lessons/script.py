@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from subdivision import Stage, Stencil, Trace
+from subdivision import Boundary, Mesh, Stage, Stencil, Trace
 
 
 class Kind(Enum):
@@ -183,6 +183,11 @@ def beside(beat: Beat, *others: View) -> Beat:
 def diagram_of(beat: Beat, title: str = "") -> View:
     """The leading view's trace as a diagram, in step with it."""
     return replace(beat.lead, kind=Kind.DIAGRAM, title=title)
+
+
+def fragment(mesh: Mesh) -> Mesh:
+    """A piece of a larger mesh: the faces that touch its boundary are there for the others, and drawn faint."""
+    return Mesh(mesh.topology.with_boundary(Boundary.HIDE), mesh.points)
 
 
 def look_at(trace: Trace) -> Look:

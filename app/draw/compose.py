@@ -15,7 +15,7 @@ from app.state import Options, State, level_of
 from lessons.script import Beat, Kind, Look, View
 from subdivision import Frame, Role, Stencil, Trace
 from subdivision.arrays import Floats, Indices, Mask
-from subdivision.exact import spelled
+from subdivision.exact import spelled_together
 
 MARKER = 0.036
 """Radius of an original point, relative to the radius of the control object."""
@@ -267,6 +267,7 @@ def _pointed_out(
     ends = np.stack([np.arange(len(parents)), np.full(len(parents), len(parents))], axis=1)
     rays = Lines(np.vstack([parents, point]), ends, theme.selection, 3.0 * theme.stroke, 0.8)
     words = [
-        Label(p, spelled(w), theme.ink, 26.0) for p, (_, w) in zip(parents, stencil.terms, strict=True)
+        Label(p, text, theme.ink, 26.0)
+        for p, text in zip(parents, spelled_together([w for _, w in stencil.terms]), strict=True)
     ]
     return [rings, chosen], [rays], words

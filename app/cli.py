@@ -1,0 +1,258 @@
+"""The command line.  Anything slow to import waits until a command needs it."""
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from pathlib import Path
+
+import lessons
+from subdivision import Boundary, Mesh, Topology, TopologyError, files, subdivide
+from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
+from subdivision.exact import Exact, spelled
+from subdivision.schemes import SCHEMES
+
+NAMES = {s.name: s for s in SCHEMES}
+FORMATS = ("png", "svg", "pdf", "gif", "mp4")
+BACKGROUNDS = ("white", "black", "transparent")
+
+MOST_FACES = 20_000_000
+"""A mesh file beyond this is gigabytes; nobody asks for one on purpose."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; 0 if all went well, 1 after a fault told in a sentence, 2 after a misuse."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    parser, commands = _parsers()
+    chosen = commands[arguments.pop(0)] if arguments and arguments[0] in commands else parser
+    options = chosen.parse_args(arguments)
+    try:
+        return int(options.run(options) or 0)
+    except (TopologyError, files.FileError, Fault) as fault:
+        print(f"subdivision-studio: {fault}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:  # the reader of our output, such as head, has had enough
+        sys.stderr.close()
+        return 0
+
+
+class Fault(Exception):
+    """What went wrong, in a sentence for the user."""
+
+
+def open_window(options: argparse.Namespace) -> int:
+    """Open the window, at a lesson and a step if they are named."""
+    chosen = _lesson(options.lesson) if options.lesson else None
+    from app.gui.application import run
+
+    return run(chosen.id if chosen else None, options.step)
+
+
+def list_lessons(options: argparse.Namespace) -> None:
+    """Print every lesson: id, title, number of steps."""
+    from app.state import stops
+
+    rows = [{"id": each.id, "title": each.title, "steps": len(stops(each))} for each in lessons.all_lessons()]
+    if options.json:
+        print(json.dumps(rows, indent=2, ensure_ascii=False))
+        return
+    width = max(len(str(row["id"])) for row in rows)
+    for row in rows:
+        print(f"{row['id']:<{width}}  {row['steps']:>3} steps  {row['title']}")
+
+
+def draw_figures(options: argparse.Namespace) -> None:
+    """Render lessons to files."""
+    chosen = [_lesson(name) for name in options.lessons] or list(lessons.all_lessons())
+    from app import figures
+
+    try:
+        for each in chosen:
+            written = figures.render(
+                each, options.out, formats=options.format, size=options.size, background=options.background,
+                steps=options.steps,
+            )  # fmt: skip
+            for path in written:
+                print(path)
+    except figures.FigureError as fault:
+        raise Fault(str(fault)) from fault
+
+
+def subdivide_file(options: argparse.Namespace) -> None:
+    """Read a mesh, subdivide it, write it."""
+    mesh = files.read(options.input)
+    scheme = NAMES[options.scheme]
+    if not isinstance(mesh.topology, Topology):
+        raise Fault(f"{options.input} holds no polygon mesh")
+    control = Mesh(mesh.topology.with_boundary(Boundary(options.boundary)), mesh.points)
+    _require_room(control, options.levels)
+    fine = subdivide(control, scheme, options.levels)
+    if options.limit:
+        from subdivision.limit import limit_points
+
+        fine = Mesh(fine.topology, limit_points(fine, scheme)[: fine.topology.n_vertices])
+    files.write(options.output, fine)
+    t = fine.topology
+    print(f"{options.output}: {t.n_vertices} vertices, {int((~t.hidden).sum())} faces")
+
+
+def print_stencil(options: argparse.Namespace) -> None:
+    """Print exact weights at a valence."""
+    from subdivision.spectrum import stencil_by_valence
+
+    scheme = NAMES[options.scheme]
+    weights = stencil_by_valence(scheme, options.valence, options.point)
+    if options.json:
+        exact = {name: {"weight": str(w), "value": float(w)} for name, w in weights.items()}
+        head = {"scheme": scheme.name, "valence": options.valence, "point": options.point}
+        print(json.dumps({**head, "weights": exact}, indent=2, ensure_ascii=False))
+        return
+    print(f"{scheme.title}: {options.point} point at valence {options.valence}")
+    width = max(map(len, weights))
+    for name, w in weights.items():
+        print(f"  {name:<{width}}  {_written(w)}")
+    print(f"  {'sum':<{width}}  {spelled(sum(weights.values(), Fraction(0)))}")
+
+
+def print_mask(options: argparse.Namespace) -> None:
+    """Print a box spline's mask and what its vector set promises."""
+    vectors = checked_vectors(options.vectors)
+    table = mask(vectors)
+    if options.json:
+        print(json.dumps({
+            "vectors": vectors, "degree": degree(vectors), "alpha": alpha(vectors), "continuity": smoothness(vectors),
+            "origin": table.origin, "mask": [[str(c) for c in row] for row in table.rows], "promise": promise(vectors),
+        }, indent=2))  # fmt: skip
+        return
+    below = max(c.denominator for row in table.rows for c in row)
+    width = max(len(str(int(c * below))) for row in table.rows for c in row)
+    print(f"1/{below} times")
+    for row in table.rows:
+        print("  " + " ".join(f"{int(c * below):>{width}}" for c in row))
+    print("rows: powers of x from", table.origin[0], "  columns: powers of y from", table.origin[1])
+    print(f"degree {degree(vectors)}, alpha {alpha(vectors)}, continuity C^{smoothness(vectors)}")
+    print(promise(vectors))
+
+
+def _parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentParser]]:
+    parser = argparse.ArgumentParser(
+        prog="subdivision-studio",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Watch subdivision curves and surfaces happen, one stage at a time.",
+        epilog="commands (each has --help):\n" + "\n".join(f"  {name:<10} {text}" for name, (_, text) in COMMANDS.items()),
+    )
+    parser.add_argument("lesson", nargs="?", metavar="LESSON", help="open at this lesson: its id, or a figure's number")
+    parser.add_argument("--step", type=_counting, metavar="N", help="... and at its N-th step, from 1")
+    parser.set_defaults(run=open_window)
+    commands = {name: _command(name, text, build) for name, (build, text) in COMMANDS.items()}
+    return parser, commands
+
+
+def _command(name: str, text: str, build: Callable[[argparse.ArgumentParser], None]) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog=f"subdivision-studio {name}", description=text)
+    build(parser)
+    return parser
+
+
+def _for_lessons(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.set_defaults(run=list_lessons)
+
+
+def _for_figures(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("lessons", nargs="*", metavar="LESSON", help="which lessons; none: all")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where to; made if it is not there")
+    parser.add_argument("--format", type=_formats, default=("png",), metavar="F,F", help="some of " + ",".join(FORMATS))
+    parser.add_argument("--size", type=_size, default=(1920, 1080), metavar="WxH", help="in pixels (1920x1080)")
+    parser.add_argument("--background", choices=BACKGROUNDS, default="white")
+    parser.add_argument("--steps", action="store_true", help="one image for each step")
+    parser.set_defaults(run=draw_figures)
+
+
+def _for_subdivide(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("input", type=Path, metavar="IN", help="an OBJ, OFF, PLY or STL file")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="an OBJ or PLY file")
+    parser.add_argument("--scheme", choices=list(NAMES), required=True)
+    parser.add_argument("--levels", type=_whole, required=True, metavar="N")
+    parser.add_argument("--boundary", choices=[b.value for b in Boundary], default=Boundary.EDGE.value)
+    parser.add_argument("--limit", action="store_true", help="push the vertices to the limit surface")
+    parser.set_defaults(run=subdivide_file)
+
+
+def _for_stencil(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--scheme", choices=list(NAMES), required=True)
+    parser.add_argument("--valence", type=_counting, required=True, metavar="N")
+    parser.add_argument("--point", choices=("vertex", "edge", "face"), default="vertex")
+    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.set_defaults(run=print_stencil)
+
+
+def _for_mask(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--vectors", type=_vectors, required=True, metavar='"1,0 0,1 1,1"')
+    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.set_defaults(run=print_mask)
+
+
+COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
+    "lessons": (_for_lessons, "list the lessons"),
+    "figures": (_for_figures, "render lessons to pictures; needs no screen"),
+    "subdivide": (_for_subdivide, "subdivide a mesh file"),
+    "stencil": (_for_stencil, "print exact weights at a valence"),
+    "mask": (_for_mask, "print a box spline's mask, degree and continuity"),
+}
+
+
+def _lesson(name: str) -> lessons.Lesson:
+    try:
+        return lessons.find(name)
+    except KeyError as unknown:
+        raise Fault(unknown.args[0]) from unknown
+
+
+def _require_room(control: Mesh, levels: int) -> None:
+    t = control.topology
+    faces = t.n_halfedges * 4 ** (levels - 1) if not t.is_triangular and levels else t.n_faces * 4**levels
+    if faces > MOST_FACES:
+        raise Fault(f"{levels} levels would make {faces:,} faces; choose fewer levels (at most {MOST_FACES:,} faces)")
+
+
+def _written(weight: Exact) -> str:
+    return str(weight) if isinstance(weight, Fraction) else f"{weight} = {float(weight):.12g}"
+
+
+def _whole(text: str) -> int:
+    number = int(text)
+    if number < 0:
+        raise argparse.ArgumentTypeError(f"{text} is negative")
+    return number
+
+
+def _counting(text: str) -> int:
+    if _whole(text) == 0:
+        raise argparse.ArgumentTypeError("counting starts at 1")
+    return int(text)
+
+
+def _formats(text: str) -> tuple[str, ...]:
+    chosen = tuple(part.strip().lower() for part in text.split(",") if part.strip())
+    for each in chosen:
+        if each not in FORMATS:
+            raise argparse.ArgumentTypeError(f"'{each}' is not one of {', '.join(FORMATS)}")
+    if not chosen:
+        raise argparse.ArgumentTypeError("name at least one format")
+    return chosen
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, _, height = text.lower().partition("x")
+    if not (width.isdigit() and height.isdigit()) or not (64 <= int(width) <= 16384 and 64 <= int(height) <= 16384):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a size such as 1920x1080 (64 to 16384 each way)")
+    return int(width), int(height)
+
+
+def _vectors(text: str) -> list[tuple[int, ...]]:
+    try:
+        return [tuple(int(x) for x in pair.split(",")) for pair in text.split()]
+    except ValueError as wrong:
+        raise argparse.ArgumentTypeError(f'{text!r} is not a list of integer pairs such as "1,0 0,1 1,1"') from wrong

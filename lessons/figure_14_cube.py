@@ -1,0 +1,36 @@
+"""Figure 14. The cube as a quad mesh: eight extraordinary vertices, level by level."""
+
+from collections.abc import Iterator
+
+from lessons.script import Beat, lesson, play, show
+from subdivision import shapes, trace
+from subdivision.schemes import QUAD_CENTROID
+
+
+@lesson("Figure 14  The cube, by centroid averaging", section="3 Quadrilateral meshes",
+        ours="The lecture shows the cube as a mesh; that it is then subdivided, and how far, is inferred.")
+def figure_14_cube() -> Iterator[Beat]:
+    cube = shapes.cube()
+    told = trace(QUAD_CENTROID, cube, levels=3)
+    topology, centroids, geometry, *later = told.stages
+    corner = cube.topology.n_vertices - 1
+    row = told.step(0).stencil(corner)
+
+    yield show(told, None, "A cube: six quads, and three of them at every vertex. Valence 3, not 4.",
+               claim=set(cube.topology.valence) == {3})
+    yield play(told, topology, "Topology: a point on every edge and every face. Six faces become 24, and nothing moves.",
+               claim=not topology.moves and topology.topology.n_faces == 24)
+    yield play(told, centroids, "Mark the centroid of every new face.", claim=len(centroids.born) == 24)
+    yield play(told, geometry, "Geometry: every vertex moves to the centroid of the centroids around it.",
+               formula=r"$Q \rightarrow \frac{1}{n} \sum_k C_k$", claim=geometry.moves)
+    yield show(told, geometry, "Why is the corner here? It keeps 27/48 of itself, takes 6/48 of each neighbour "
+               "and 1/48 across each face.", stencil=row, span=3,
+               formula=r"$\frac{9}{16} V + \frac{6}{16n} \sum E_i + \frac{1}{16n} \sum F_i$",
+               notes="So the corner of a cube from -1 to 1 moves from 1 to 2/3.",
+               claim=sorted(48 * row.weights) == [1, 1, 1, 6, 6, 6, 27])
+    yield play(told, later[0], "Again: topology, centroids, geometry. New vertices always have valence 4.",
+               until=later[2], claim=set(later[0].topology.valence[8:]) == {4})
+    yield play(told, later[3], "And again. The eight extraordinary vertices move apart, surrounded by ordinary ones.",
+               until=later[5], claim=int(later[5].topology.extraordinary.sum()) == 8)
+    yield show(told, later[5], "384 faces. Smooth everywhere: twice differentiable, but at the eight only once.",
+               claim=later[5].topology.n_faces == 384)

@@ -1,0 +1,37 @@
+"""Figure 22. One level for the three-direction quartic, seen on two triangles and their surroundings."""
+
+from collections.abc import Iterator
+
+from lessons.script import Beat, Look, fragment, lesson, play, show
+from subdivision import shapes, trace
+from subdivision.schemes import TRIANGLE_CENTROID
+
+LOOK = Look(azimuth=-62.0, elevation=48.0, zoom=1.3)
+
+
+@lesson("Figure 22  One level for the three-direction quartic", section="4 Triangular meshes",
+        ours="The faint ring: the lecture draws two faces, but all their nine points need the faces around them.")
+def figure_22_quartic() -> Iterator[Beat]:
+    told = trace(TRIANGLE_CENTROID, fragment(shapes.two_triangles_and_ring()))
+    topology, centroids, geometry = told.stages
+    control = told.control.topology
+    vertex = next(v for v in range(control.n_vertices) if not control.on_boundary[v])
+    edge_point = next(int(v) for v in topology.born if len(told.whole.stencil(int(v)).terms) == 4)
+
+    yield show(told, None, "(a) Original control points: two triangles that share an edge.", look=LOOK,
+               claim=int((~control.hidden).sum()) == 2)
+    yield play(told, topology, "(b) New topology: a point in the middle of every edge. No face points; each triangle "
+               "becomes four.", look=LOOK, formula=r"$E = \frac{A+B}{2}$",
+               claim=not topology.moves and topology.topology.n_faces == 4 * control.n_faces)
+    yield play(told, centroids, "Mark the weighted centroids: three in every small triangle, one for each corner.",
+               look=LOOK, formula=r"$C = \frac{2}{8} Q + \frac{3}{8} R + \frac{3}{8} S$",
+               notes="A weighted centroid belongs to one triangle and one of its corners; no other vertex may use it.",
+               claim=len(centroids.born) == 3 * topology.topology.n_faces)
+    yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of its own weighted centroids.",
+               look=LOOK, formula=r"$Q \rightarrow \frac{1}{n} \sum_k C_k$", claim=geometry.moves)
+    yield show(told, geometry, "A new edge point takes three eighths of each end and one eighth of each opposite corner.", look=LOOK, span=3,
+               stencil=told.whole.stencil(edge_point), formula=r"$\frac{3\,(A+B) + C + D}{8}$",
+               claim=sorted(8 * told.whole.stencil(edge_point).weights) == [1, 1, 3, 3])
+    yield show(told, geometry, "A vertex keeps ten sixteenths and takes one of each neighbour.", look=LOOK, span=3,
+               stencil=told.whole.stencil(vertex), formula=r"$\frac{10\,V + \sum N_i}{16}$",
+               claim=sorted(16 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 1, 1, 10])
