@@ -78,6 +78,7 @@ class Cosines(Number):
 
     @cached_property
     def value(self) -> float:
+        """The number, in floating point."""
         total = 0.0
         for monomial, coefficient in self.terms:
             product = float(coefficient)

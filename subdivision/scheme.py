@@ -3,9 +3,10 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from subdivision.operators import Operator
 from subdivision.rows import Connectivity
-from subdivision.stage import Step
-from subdivision.topology import TopologyError
+from subdivision.stage import Stage, Step
+from subdivision.topology import Topology, TopologyError
 
 NOT_A_MESH = "it subdivides polygon meshes"
 
@@ -13,6 +14,8 @@ NOT_A_MESH = "it subdivides polygon meshes"
 @dataclass(frozen=True)
 class Scheme:
     """Tellings are interchangeable: all of them multiply to the same matrix (tested).
+
+    The limit rules may be left out; ``limit.py`` says who asks for them, and when they hold.
 
     Attributes
     ----------
@@ -26,6 +29,10 @@ class Scheme:
         Why it cannot subdivide a control object; empty where it can.
     tellings : name -> (Connectivity -> Step)
         The first one is the telling for those who do not choose.
+    limit : Connectivity -> Stage, optional
+        Points to where they tend to.
+    tangents : Topology -> (Operator, Operator), optional
+        Two directions in the tangent plane at every limit point.
     """
 
     name: str
@@ -33,8 +40,11 @@ class Scheme:
     paper: str
     refuses: Callable[[Connectivity], str]
     tellings: Mapping[str, Callable[[Connectivity], Step]]
+    limit: Callable[[Connectivity], Stage] | None = None
+    tangents: Callable[[Topology], tuple[Operator, Operator]] | None = None
 
     def accepts(self, topology: Connectivity) -> bool:
+        """Whether it can subdivide a control object."""
         return not self.refuses(topology)
 
     def step(self, topology: Connectivity, telling: str | None = None) -> Step:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from subdivision.continuity import checked_vectors
+from subdivision.limit_nets import box_weights, net_limit
 from subdivision.passes import Pass, Vector, at_once, average, quadruple, room, told
 from subdivision.rows import Connectivity, Grid
 from subdivision.scheme import Scheme
@@ -39,6 +40,7 @@ def box_spline(vectors: Sequence[Vector]) -> Scheme:
             "in reverse": lambda t: told(t, [quadruple, *map(average, reversed(rest))]),
             "stencils": lambda t: at_once("stencils", told(t, passes)),
         },
+        limit=lambda t: net_limit(t, box_weights(chosen)),
     )
 
 

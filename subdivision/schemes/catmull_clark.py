@@ -9,6 +9,8 @@ from functools import partial
 
 from subdivision import meshes
 from subdivision.centroids import quad_averaging, quad_stencils
+from subdivision.limit_rules import quad_limit
+from subdivision.limit_tangents import quad_tangents
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
@@ -33,4 +35,6 @@ CATMULL_CLARK = Scheme(
         "stencils": partial(quad_stencils, pull=pull),
         "centroid averaging": by_averaging,
     },
+    limit=partial(quad_limit, pull=pull),
+    tangents=partial(quad_tangents, pull=pull),
 )

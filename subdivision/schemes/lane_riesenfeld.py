@@ -7,6 +7,7 @@ a closed one of 2 N.
 
 from functools import partial
 
+from subdivision.limit_nets import curve_limit
 from subdivision.passes import Pass, at_once, average, merged, room, split, told, topology_and_geometry
 from subdivision.rows import Connectivity, Polyline
 from subdivision.scheme import Scheme
@@ -36,6 +37,7 @@ def lane_riesenfeld(degree: int) -> Scheme:
             "topology and geometry": lambda t: told_in_two(t, degree),
             "stencils": lambda t: at_once("stencils", told(t, _split_and_average(degree))),
         },
+        limit=partial(curve_limit, degree=degree),
     )
 
 

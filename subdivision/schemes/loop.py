@@ -11,6 +11,8 @@ from functools import partial
 from subdivision import meshes
 from subdivision.centroids import triangle_averaging, triangle_stencils
 from subdivision.exact import Exact, cosine
+from subdivision.limit_rules import triangle_limit
+from subdivision.limit_tangents import triangle_tangents
 from subdivision.scheme import Scheme
 
 
@@ -25,10 +27,12 @@ def warren_beta(n: int) -> Exact:
 
 
 def loop_pull(n: int) -> Exact:
+    """How far ``loop_beta`` goes to the centroid of the weighted centroids; 1 at valence 6."""
     return loop_beta(n) * Fraction(8 * n, 3)
 
 
 def warren_pull(n: int) -> Exact:
+    """How far ``warren_beta`` goes: all the way, but 3/2 of it at valence 3."""
     return warren_beta(n) * Fraction(8 * n, 3)
 
 
@@ -41,6 +45,8 @@ LOOP = Scheme(
         "stencils": partial(triangle_stencils, beta=loop_beta),
         "centroid averaging": partial(triangle_averaging, pull=loop_pull),
     },
+    limit=partial(triangle_limit, beta=loop_beta),
+    tangents=partial(triangle_tangents, beta=loop_beta),
 )
 
 LOOP_WARREN = Scheme(
@@ -52,4 +58,6 @@ LOOP_WARREN = Scheme(
         "stencils": partial(triangle_stencils, beta=warren_beta),
         "centroid averaging": partial(triangle_averaging, pull=warren_pull),
     },
+    limit=partial(triangle_limit, beta=warren_beta),
+    tangents=partial(triangle_tangents, beta=warren_beta),
 )

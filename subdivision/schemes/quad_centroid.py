@@ -9,6 +9,8 @@ from functools import partial
 
 from subdivision import meshes
 from subdivision.centroids import quad_averaging, quad_stencils
+from subdivision.limit_rules import quad_limit
+from subdivision.limit_tangents import quad_tangents
 from subdivision.scheme import Scheme
 
 
@@ -26,4 +28,6 @@ QUAD_CENTROID = Scheme(
         "centroid averaging": partial(quad_averaging, pull=pull),
         "stencils": partial(quad_stencils, pull=pull),
     },
+    limit=partial(quad_limit, pull=pull),
+    tangents=partial(quad_tangents, pull=pull),
 )

@@ -7,6 +7,7 @@ average in any order: the passes commute, so all of them make the same net.
 from functools import partial
 from itertools import chain, zip_longest
 
+from subdivision.limit_nets import net_limit, tensor_weights
 from subdivision.passes import (
     Pass,
     as_grid,
@@ -53,6 +54,7 @@ def tensor_product(m: int, n: int) -> Scheme:
         paper="LR80",
         refuses=partial(_refuses, lost=(m, n)),
         tellings=tellings,
+        limit=lambda t: net_limit(t, tensor_weights(m, n)),
     )
 
 

@@ -11,6 +11,8 @@ from functools import partial
 
 from subdivision import meshes
 from subdivision.centroids import triangle_averaging, triangle_stencils
+from subdivision.limit_rules import triangle_limit
+from subdivision.limit_tangents import triangle_tangents
 from subdivision.scheme import Scheme
 
 
@@ -33,4 +35,6 @@ TRIANGLE_CENTROID = Scheme(
         "centroid averaging": partial(triangle_averaging, pull=pull),
         "stencils": partial(triangle_stencils, beta=beta),
     },
+    limit=partial(triangle_limit, beta=beta),
+    tangents=partial(triangle_tangents, beta=beta),
 )
