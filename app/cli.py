@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import lessons
+from lessons.script import Lesson
 from subdivision import Boundary, Mesh, Topology, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
 from subdivision.exact import Exact, spelled
@@ -140,7 +141,8 @@ def _parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentPars
         prog="subdivision-studio",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Watch subdivision curves and surfaces happen, one stage at a time.",
-        epilog="commands (each has --help):\n" + "\n".join(f"  {name:<10} {text}" for name, (_, text) in COMMANDS.items()),
+        epilog="commands (each has --help):\n"
+        + "\n".join(f"  {name:<10} {text}" for name, (_, text) in COMMANDS.items()),
     )
     parser.add_argument("lesson", nargs="?", metavar="LESSON", help="open at this lesson: its id, or a figure's number")
     parser.add_argument("--step", type=_counting, metavar="N", help="... and at its N-th step, from 1")
@@ -203,7 +205,7 @@ COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
 }
 
 
-def _lesson(name: str) -> lessons.Lesson:
+def _lesson(name: str) -> Lesson:
     try:
         return lessons.find(name)
     except KeyError as unknown:

@@ -22,6 +22,9 @@ Edits: TypeAlias = tuple[tuple[int, tuple[float, float, float]], ...]
 STILL = 0.5
 """How long a still is on the timeline; a stage is 1."""
 
+READING = 2.5
+"""How long playing through rests on a still, in stages, so that it can be read."""
+
 
 @dataclass(frozen=True)
 class Stop:
@@ -61,19 +64,22 @@ class Options:
     speed: float = 1.0
     through: bool = False
     presenting: bool = False
+    blank: bool = False
 
 
 @dataclass(frozen=True, eq=False)
 class State:
     """Where we are: the lesson, the beat, how far into it, what is pointed at, what was dragged.
 
-    ``goal`` is where playing will rest; None while it rests.
+    ``goal`` is where playing will rest; None while it rests.  ``wait`` is how many stages' time a
+    still is shown before playing through goes on.
     """
 
     lesson: Lesson
     beat: int = 0
     at: float = 0.0
     goal: Stop | None = None
+    wait: float = 0.0
     focus: int | None = None
     edits: Edits = ()
     options: Options = field(default_factory=Options)
@@ -180,12 +186,12 @@ def open_lesson(state: State, lesson: Lesson, step: int = 0) -> State:
 
 def at_stop(state: State, stop: Stop) -> State:
     """Rest at a stop."""
-    return replace(state, beat=stop.beat, at=stop.at, goal=None, focus=None)
+    return replace(state, beat=stop.beat, at=stop.at, goal=None, wait=0.0, focus=None)
 
 
 def rest(state: State) -> State:
     """Pause where we are."""
-    return replace(state, goal=None)
+    return replace(state, goal=None, wait=0.0)
 
 
 def settle(state: State) -> State:
@@ -203,7 +209,9 @@ def forward(state: State) -> State:
     beat = state.lesson.beats[goal.beat]
     if goal.beat == state.beat:
         return replace(state, goal=goal)
-    return at_stop(state, goal) if beat.is_still else replace(state, beat=goal.beat, at=beat.start, goal=goal, focus=None)
+    return (
+        at_stop(state, goal) if beat.is_still else replace(state, beat=goal.beat, at=beat.start, goal=goal, focus=None)
+    )
 
 
 def back(state: State) -> State:
@@ -252,20 +260,33 @@ def toggle_play(state: State) -> State:
     if state.is_playing:
         return rest(state)
     onward = forward(state)
-    return onward if (onward.beat, onward.at, onward.goal) != (state.beat, state.at, state.goal) else forward(first(state))
+    return (
+        onward if (onward.beat, onward.at, onward.goal) != (state.beat, state.at, state.goal) else forward(first(state))
+    )
 
 
 def tick(state: State, stages: float) -> State:
     """Playing goes on by a number of ``stages`` (0.02, say), and rests at the goal or goes for the next one."""
     if state.goal is None:
         return state
+    if state.wait > 0:
+        left = max(state.wait - stages, 0.0)
+        return replace(state, wait=left) if left else _onward(settle(state))
     back_there = (state.goal.beat, state.goal.at) < (state.beat, state.at)
     end = state.goal.at if state.goal.beat == state.beat else state.now.start
     at = max(state.at - stages, end) if back_there else min(state.at + stages, end)
     if at != end:
         return replace(state, at=at)
     settled = at_stop(state, state.goal)
-    return forward(settled) if state.options.through and not back_there else settled
+    return _onward(settled) if state.options.through and not back_there else settled
+
+
+def _onward(state: State) -> State:
+    """Playing through: on to the next stop; a still is shown long enough to be read."""
+    there = forward(state)
+    if there.is_playing or there.beat == state.beat:
+        return there
+    return replace(there, goal=Stop(there.beat, there.at), wait=READING)
 
 
 def seek(state: State, axis: float) -> State:
@@ -274,7 +295,7 @@ def seek(state: State, axis: float) -> State:
     axis = min(max(axis, 0.0), parts[-1].end)
     s = next(s for s in parts if axis <= s.end)
     at = s.start + (axis - s.begin) / (s.end - s.begin) * (s.stop - s.start)
-    return replace(state, beat=s.beat, at=at, goal=None, focus=None)
+    return replace(state, beat=s.beat, at=at, goal=None, wait=0.0, focus=None)
 
 
 def look(state: State, point: int | None) -> State:

@@ -34,6 +34,6 @@ def figure_01_lane_riesenfeld() -> Iterator[Beat]:
     yield with_pyramid(play(told, thrice, "And again: the cubic curve. Every average makes the row one shorter.",
                             formula=r"$N \rightarrow 2N - n$",
                             claim=thrice.n_points == 2 * 4 - DEGREE))
-    yield with_pyramid(show(told, thrice, "Read one box: a moved vertex keeps 6/8 of itself and takes 1/8 of each neighbour.",
+    yield with_pyramid(show(told, thrice, "Read one box: a vertex keeps 6/8 of itself and takes 1/8 of each neighbour.",
                             formula=r"$\frac{P_0 + 6 P_1 + P_2}{8}$", stencil=vertex, span=4,
                             claim=list(vertex.weights) == [symbol[2], symbol[0], symbol[4]]))

@@ -35,6 +35,6 @@ def figure_05_quadruple_then_average() -> Iterator[Beat]:
                           "The bilinear surface.", look=LOOK,
                           formula=r"$U_{ij} \leftarrow \frac{U_{ij} + U_{i,j+1}}{2}$",
                           claim=sorted(set(along_t.roles)) == [0, 1, 2]))
-    yield with_array(show(told, along_t, "A face point is the mean of its four corners.", look=LOOK, stencil=centre, span=3,
-                          formula=r"$\frac{P_{00} + P_{10} + P_{01} + P_{11}}{4}$",
+    yield with_array(show(told, along_t, "A face point is the mean of its four corners.", look=LOOK,
+                          stencil=centre, span=3, formula=r"$\frac{P_{00} + P_{10} + P_{01} + P_{11}}{4}$",
                           claim=set(centre.weights) == {1 / 4} and len(centre.terms) == 4))

@@ -18,7 +18,7 @@ def figure_14_cube() -> Iterator[Beat]:
 
     yield show(told, None, "A cube: six quads, and three of them at every vertex. Valence 3, not 4.",
                claim=set(cube.topology.valence) == {3})
-    yield play(told, topology, "Topology: a point on every edge and every face. Six faces become 24, and nothing moves.",
+    yield play(told, topology, "Topology: a point on every edge and every face. Six faces become 24; nothing moves.",
                claim=not topology.moves and topology.topology.n_faces == 24)
     yield play(told, centroids, "Mark the centroid of every new face.", claim=len(centroids.born) == 24)
     yield play(told, geometry, "Geometry: every vertex moves to the centroid of the centroids around it.",
@@ -31,6 +31,6 @@ def figure_14_cube() -> Iterator[Beat]:
     yield play(told, later[0], "Again: topology, centroids, geometry. New vertices always have valence 4.",
                until=later[2], claim=set(later[0].topology.valence[8:]) == {4})
     yield play(told, later[3], "And again. The eight extraordinary vertices move apart, surrounded by ordinary ones.",
-               until=later[5], claim=int(later[5].topology.extraordinary.sum()) == 8)
+               until=later[5], claim=int(told.mesh_at(9).topology.extraordinary.sum()) == 8)
     yield show(told, later[5], "384 faces. Smooth everywhere: twice differentiable, but at the eight only once.",
                claim=later[5].topology.n_faces == 384)

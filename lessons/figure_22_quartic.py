@@ -29,8 +29,8 @@ def figure_22_quartic() -> Iterator[Beat]:
                claim=len(centroids.born) == 3 * topology.topology.n_faces)
     yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of its own weighted centroids.",
                look=LOOK, formula=r"$Q \rightarrow \frac{1}{n} \sum_k C_k$", claim=geometry.moves)
-    yield show(told, geometry, "A new edge point takes three eighths of each end and one eighth of each opposite corner.", look=LOOK, span=3,
-               stencil=told.whole.stencil(edge_point), formula=r"$\frac{3\,(A+B) + C + D}{8}$",
+    yield show(told, geometry, "A new edge point takes three eighths of each end, one eighth of each opposite corner.",
+               look=LOOK, span=3, stencil=told.whole.stencil(edge_point), formula=r"$\frac{3\,(A+B) + C + D}{8}$",
                claim=sorted(8 * told.whole.stencil(edge_point).weights) == [1, 1, 3, 3])
     yield show(told, geometry, "A vertex keeps ten sixteenths and takes one of each neighbour.", look=LOOK, span=3,
                stencil=told.whole.stencil(vertex), formula=r"$\frac{10\,V + \sum N_i}{16}$",

@@ -41,7 +41,9 @@ def quad_averaging(t: Topology, pull: Pull) -> Step:
     fine = refine.quads(t)
     split = stack(identity(t.n_vertices), face_centroids(t), edge_midpoints(t))
     roles = np.repeat([Role.ORIGINAL, Role.FACE, Role.EDGE], [t.n_vertices, t.n_faces, t.n_edges])
-    return _averaging(t, fine, split, roles, face_centroids(fine), vertex_faces(fine), by_count(pull, _ordinary(fine, 4)))
+    return _averaging(
+        t, fine, split, roles, face_centroids(fine), vertex_faces(fine), by_count(pull, _ordinary(fine, 4))
+    )
 
 
 def triangle_averaging(t: Topology, pull: Pull) -> Step:
@@ -100,7 +102,10 @@ def _averaging(
     still, helpers = Pick(np.arange(X), X + C), Pick(np.arange(X, X + C), X + C)
     smooth = mix(pull, around @ helpers, still)
     moved = blend(
-        _refined_rules(t, fine), smooth, lambda sharp: 1 / 2 * still + 1 / 2 * widened(neighbours(fine, sharp), X + C), still
+        _refined_rules(t, fine),
+        smooth,
+        lambda sharp: 1 / 2 * still + 1 / 2 * widened(neighbours(fine, sharp), X + C),
+        still,
     )
     return Step((
         Stage("topology", split, fine, _grown(t.n_vertices, X - t.n_vertices), roles),

@@ -77,8 +77,8 @@ def promise(vectors: Sequence[Vector]) -> str:
     k = smoothness(vectors)
     if k < 0:
         return (
-            "The limit jumps (alpha = 1): all vectors but one are parallel, so across one direction nothing is averaged "
-            "and each row keeps its own value. This is what the rule says, not a failure."
+            "The limit jumps (alpha = 1): all vectors but one are parallel, so across one direction nothing is "
+            "averaged and each row keeps its own value. This is what the rule says, not a failure."
         )
     return f"The limit is piecewise polynomial of total degree {degree(vectors)} and C^{k} (alpha = {alpha(vectors)})."
 

@@ -32,7 +32,8 @@ class Weights:
     @cached_property
     def values(self) -> Floats:
         """(n,) float."""
-        return np.array([float(w) for w in self.table], dtype=float)[self.index]
+        values: Floats = np.array([float(w) for w in self.table], dtype=float)[self.index]
+        return values
 
     def __getitem__(self, row: int) -> Exact:
         return self.table[self.index[row]]
@@ -136,7 +137,9 @@ class MeanOf(Operator):
 
     def assemble(self) -> csr_array:
         n, k = self.columns.shape
-        matrix = csr_array((np.full(n * k, 1 / k), self.columns.flatten(), np.arange(0, n * k + 1, k)), shape=self.shape)
+        matrix = csr_array(
+            (np.full(n * k, 1 / k), self.columns.flatten(), np.arange(0, n * k + 1, k)), shape=self.shape
+        )
         matrix.sum_duplicates()
         return matrix
 
@@ -278,10 +281,12 @@ class Stack(Operator):
 
 
 def identity(n: int) -> Operator:
+    """(n, n): every point to itself."""
     return Pick(np.arange(n), n)
 
 
 def stack(*blocks: Operator) -> Operator:
+    """The blocks on top of each other."""
     return Stack(blocks)
 
 
@@ -292,7 +297,7 @@ def widened(operator: Operator, n_columns: int) -> Operator:
 
 def mix(weights: Weights, a: Operator, b: Operator) -> Operator:
     """Row by row, ``weights`` of ``a`` and the rest of ``b``."""
-    if weights.table == (1,):
+    if weights.table == (Fraction(1),):
         return a
     return weights * a + (1 - weights) * b
 

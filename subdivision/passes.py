@@ -130,10 +130,12 @@ def centroid_of_centroids(t: Connectivity) -> Stage:
 
 
 def spelled(v: Vector) -> str:
+    """A direction as a stage names it: s, t, or the vector."""
     return {(1, 0): "s", (0, 1): "t"}.get(v, f"({v[0]},{v[1]})")
 
 
 def as_grid(t: Connectivity) -> Grid:
+    """``t`` itself, if it is a rectangular net."""
     if not isinstance(t, Grid):
         raise TopologyError("this scheme subdivides rectangular nets, not polygons or meshes")
     return t
@@ -155,8 +157,10 @@ def room(t: Connectivity, lost: tuple[int, int]) -> str:
 
 def _pairs(grid: Grid, v: Vector) -> tuple[Indices, Indices]:
     """Point numbers ``k`` and ``k + v`` wherever both exist, as arrays of the shortened shape."""
-    (i, k), (j, l) = (_reach(n, step, wrap) for n, step, wrap in zip(grid.shape, v, (grid.wrap_s, grid.wrap_t), strict=True))
-    return grid.numbers[np.ix_(i, j)], grid.numbers[np.ix_(k, l)]
+    (i, i_on), (j, j_on) = (
+        _reach(n, step, wrap) for n, step, wrap in zip(grid.shape, v, (grid.wrap_s, grid.wrap_t), strict=True)
+    )
+    return grid.numbers[np.ix_(i, j)], grid.numbers[np.ix_(i_on, j_on)]
 
 
 def _reach(n: int, step: int, wrap: bool) -> tuple[Indices, Indices]:

@@ -96,7 +96,9 @@ class Stage:
     def moves(self) -> bool:
         """Whether a point that was there moves: the stage is geometric, else topological."""
         kept = np.flatnonzero(self.carries >= 0)
-        stay = csr_array((np.ones(len(kept)), self.carries[kept], np.arange(len(kept) + 1)), (len(kept), self.matrix.shape[1]))
+        stay = csr_array(
+            (np.ones(len(kept)), self.carries[kept], np.arange(len(kept) + 1)), (len(kept), self.matrix.shape[1])
+        )
         return bool(abs(self.matrix[kept] - stay).max() > 1e-12) if len(kept) else False
 
     def stencil(self, point: int) -> Stencil:

@@ -129,7 +129,9 @@ class Topology:
         twin, edge, ends = _paired(origin, origin[next_], face, n)
         bare = cls(
             origin, next_, twin, edge, face, n,
-            _crease_sharpness(ends, creases or {}), _corner_sharpness(n, corners or {}), np.zeros(len(sizes), dtype=bool),
+            edge_sharpness=_crease_sharpness(ends, creases or {}),
+            vertex_sharpness=_corner_sharpness(n, corners or {}),
+            hidden=np.zeros(len(sizes), dtype=bool),
         )  # fmt: skip
         _require_single_fans(bare)
         return bare.with_boundary(boundary)
@@ -258,6 +260,7 @@ def _paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Ind
             f"faces {face[g]} and {face[h]} both run from vertex {a[g]} to vertex {b[g]}; "
             "reverse the corner order of one of them",
             faces=[int(face[g]), int(face[h])],
+            vertices=[int(a[g]), int(b[g])],
         )
     twin[one], twin[other] = other, one
     return twin, edge, np.stack([a[order[start]], b[order[start]]], axis=1)
@@ -274,6 +277,7 @@ def _require_two_faces_an_edge(
             f"the edge between vertices {a[h]} and {b[h]} has {count[e]} faces ({', '.join(map(str, around))}); "
             "a surface has at most two there, so remove the others or split the edge",
             faces=around,
+            vertices=[int(a[h]), int(b[h])],
         )
 
 
@@ -317,7 +321,9 @@ def _crease_sharpness(ends: Indices, creases: Mapping[tuple[int, int], float]) -
         number = {frozenset(pair): e for e, pair in enumerate(ends.tolist())}
         for pair, value in creases.items():
             if frozenset(pair) not in number:
-                raise TopologyError(f"there is no edge between vertices {pair[0]} and {pair[1]} to crease", vertices=pair)
+                raise TopologyError(
+                    f"there is no edge between vertices {pair[0]} and {pair[1]} to crease", vertices=pair
+                )
             sharpness[number[frozenset(pair)]] = _checked(value)
     return sharpness
 

@@ -4,8 +4,6 @@ Nothing is painted: the result is a display list, so that a test can read "four 
 3/8 3/8 1/8 1/8" without a screen, and every painter paints the same.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from app.draw import diagrams, motion
@@ -14,7 +12,7 @@ from app.draw.theme import NAMES, SHAPES, SIZES, THEMES, Theme
 from app.state import Options, State, level_of
 from lessons.script import Beat, Kind, Look, View
 from subdivision import Frame, Role, Stencil, Trace
-from subdivision.arrays import Floats, Indices, Mask
+from subdivision.arrays import Floats, Mask
 from subdivision.exact import spelled_together
 
 MARKER = 0.036
@@ -69,7 +67,9 @@ def camera(trace: Trace, look: Look) -> Camera:
     return Camera(centre + reach / np.sin(np.radians(15.0)) * towards, centre, up)
 
 
-def scene(frame: Frame, trace: Trace, look: Look, options: Options, theme: Theme, stencil: Stencil | None, span: int) -> Scene:
+def scene(
+    frame: Frame, trace: Trace, look: Look, options: Options, theme: Theme, stencil: Stencil | None, span: int
+) -> Scene:
     """One instant of a trace in space."""
     radius = _marker_radius(trace, frame)
     faint = _faint(frame)
@@ -263,7 +263,9 @@ def _pointed_out(
     size = radius * (0.9 + 1.3 * np.sqrt(weights / weights.max()))
     none = np.full(len(parents), -1)
     rings = Markers(parents, Shape.SPHERE, theme.selection, size, np.full(len(parents), 0.55), none, "contributor")
-    chosen = Markers(point[None], Shape.HALO, theme.selection, np.array([1.5 * radius]), np.ones(1), none[:1], "pointed out")
+    chosen = Markers(
+        point[None], Shape.HALO, theme.selection, np.array([1.5 * radius]), np.ones(1), none[:1], "pointed out"
+    )
     ends = np.stack([np.arange(len(parents)), np.full(len(parents), len(parents))], axis=1)
     rays = Lines(np.vstack([parents, point]), ends, theme.selection, 3.0 * theme.stroke, 0.8)
     words = [

@@ -62,7 +62,9 @@ def _pyramid(control: Polyline, stages: tuple[Stage, ...], at: float, theme: The
     links: list[Link] = []
     notes: list[Note] = []
     if at == 0:
-        boxes = [_box(2 * i + 0.5, 0, f"${_point(i)}$", Role.ORIGINAL, theme, 1.0, i) for i in range(control.n_vertices)]
+        boxes = [
+            _box(2 * i + 0.5, 0, f"${_point(i)}$", Role.ORIGINAL, theme, 1.0, i) for i in range(control.n_vertices)
+        ]
     for k, stage in enumerate(stages[: int(np.ceil(at))]):
         shown = _filled(stage.n_points, at - k) if k else np.ones(stage.n_points)
         for i in range(stage.n_points):
@@ -87,7 +89,9 @@ def _parents(stage: Stage, i: int, k: int, opacity: float, theme: Theme) -> list
 
 def _array(control: Grid, stages: tuple[Stage, ...], at: float, theme: Theme) -> Diagram:
     """The net as it stands: s to the right, t upwards; boxes slide from the box they continue."""
-    largest = max((s.topology.shape for s in stages if isinstance(s.topology, Grid)), key=lambda shape: shape[0] * shape[1])
+    largest = max(
+        (s.topology.shape for s in stages if isinstance(s.topology, Grid)), key=lambda shape: shape[0] * shape[1]
+    )
     w, h = max(largest[0], control.n_s), max(largest[1], control.n_t)
     extent = (-w / 2 - 0.1, -h / 2 - 0.1, w / 2 + 0.1, h / 2 + 0.45)
     arrow = (Note(0, h / 2 + 0.25, "s →   t ↑", theme.muted, "center"),)
@@ -95,7 +99,10 @@ def _array(control: Grid, stages: tuple[Stage, ...], at: float, theme: Theme) ->
     if at == 0:
         start = _places(control)
         names = [_named(control)(i) for i in range(control.n_vertices)]
-        boxes = [_box(x, y, f"${n}$", Role.ORIGINAL, theme, 1.0, i) for i, ((x, y), n) in enumerate(zip(start, names, strict=True))]
+        boxes = [
+            _box(x, y, f"${n}$", Role.ORIGINAL, theme, 1.0, i)
+            for i, ((x, y), n) in enumerate(zip(start, names, strict=True))
+        ]
         return Diagram(extent, tuple(boxes), (), arrow)
     stage, t = stages[k], at - k
     before = stages[k - 1].topology if k else control
@@ -113,7 +120,13 @@ def _sliding(
         x, y = new[i] if carried < 0 else (1 - t) * old[carried] + t * new[i]
         done = shown[i] >= 0.5
         stencil = step.stencil(i) if done or carried < 0 or earlier is None else earlier.stencil(int(carried))
-        role = Role(stage.roles[i]) if done or carried < 0 else Role(sofar[-2].roles[carried]) if earlier else Role.ORIGINAL
+        role = (
+            Role(stage.roles[i])
+            if done or carried < 0
+            else Role(sofar[-2].roles[carried])
+            if earlier
+            else Role.ORIGINAL
+        )
         opacity = float(shown[i]) if carried < 0 else float(abs(2 * shown[i] - 1)) if stage.moves else 1.0
         boxes.append(_box(float(x), float(y), combination(stencil, _named(control)), role, theme, opacity, i))
     return boxes

@@ -100,7 +100,11 @@ class Camera:
         above = np.cross(right, ahead)
         away = np.asarray(points, dtype=float).reshape(-1, 3) - self.position
         depth = away @ ahead
-        half = np.full(len(away), self.scale) if self.scale else np.maximum(depth, 1e-9) * np.tan(np.radians(self.angle) / 2)
+        half = (
+            np.full(len(away), self.scale)
+            if self.scale
+            else np.maximum(depth, 1e-9) * np.tan(np.radians(self.angle) / 2)
+        )
         x, y = away @ right / half, away @ above / half
         return np.stack([width / 2 + x * height / 2, height / 2 - y * height / 2, depth], axis=1)
 

@@ -77,7 +77,13 @@ LIGHT = Theme(
     net=rgb("#8A837A"),
     faint=rgb("#C9C3B9"),
     selection=rgb("#A8467C"),
-    roles={Role.ORIGINAL: rgb("#111111"), Role.EDGE: ORANGE, Role.FACE: VERMILION, Role.CENTROID: GREEN, Role.MOVED: BLUE},
+    roles={
+        Role.ORIGINAL: rgb("#111111"),
+        Role.EDGE: ORANGE,
+        Role.FACE: VERMILION,
+        Role.CENTROID: GREEN,
+        Role.MOVED: BLUE,
+    },
 )
 
 DARK = Theme(

@@ -1,0 +1,100 @@
+"""Every claim a lesson makes is true, every beat can be drawn, and the words fit the picture."""
+
+import re
+import string
+
+import pytest
+
+import lessons
+from app.draw.compose import compose
+from app.draw.picture import Diagram, Scene
+from app.draw.theme import THEMES
+from app.state import at_stop, choose, seek, segments, start, stops
+from lessons.script import Lesson
+
+LESSONS = lessons.all_lessons()
+COLOURS = re.compile(r"\b(red|orange|yellow|green|blue|purple|black|white|vermilion)\b")
+ROLE_OF_COLOUR = {"green": "centroid", "orange": "edge point", "vermilion": "face point", "blue": "moved"}
+
+each_lesson = pytest.mark.parametrize("lesson", LESSONS, ids=lambda each: each.id)
+
+
+def test_the_six_pattern_lessons_are_there():
+    assert {each.id[:9] for each in LESSONS} >= {f"figure_{n}" for n in ("01", "05", "11", "12", "14", "22")}
+
+
+@each_lesson
+def test_every_claim_is_true(lesson: Lesson):
+    assert [beat.text for beat in lesson.beats if not beat.claim] == []
+
+
+@each_lesson
+def test_captions_are_short_and_say_only_colours_that_are_there(lesson: Lesson):
+    for beat in lesson.beats:
+        assert 0 < len(beat.text) <= 130, beat.text
+        assert beat.text[-1] in ".?"
+        assert beat.formula.count("$") in (0, 2)
+        shown = {entry.text for entry in compose(_ends(lesson, beat)).legend}
+        for colour in COLOURS.findall(beat.text):
+            assert ROLE_OF_COLOUR[colour] in shown, beat.text
+
+
+@each_lesson
+def test_every_beat_composes_at_every_stop_and_between_in_every_theme(lesson: Lesson):
+    state = start(lesson)
+    for theme in THEMES:
+        state = choose(state, theme=theme)
+        for stop in stops(lesson):
+            _is_whole(compose(at_stop(state, stop)))
+    for segment in segments(lesson):
+        for part in (0.01, 0.3, 0.5, 0.99):
+            _is_whole(compose(seek(state, segment.begin + part * (segment.end - segment.begin))))
+
+
+@each_lesson
+def test_a_pointed_out_stencil_shows_one_weight_for_each_contributor(lesson: Lesson):
+    for beat in lesson.beats:
+        if beat.stencil is not None:
+            scenes = compose(_ends(lesson, beat)).scenes
+            assert len(scenes[0].labels) == len(beat.stencil.terms)
+
+
+@each_lesson
+def test_stages_continue_where_the_beat_before_ended(lesson: Lesson):
+    """Nothing jumps: a beat starts where its trace stood, unless it shows another trace."""
+    for before, after in zip(lesson.beats, lesson.beats[1:], strict=False):
+        if before.lead.trace is after.lead.trace:
+            assert after.start == before.stop
+
+
+@each_lesson
+def test_what_a_formula_and_a_caption_say_needs_no_missing_glyph(lesson: Lesson):
+    allowed = set(string.printable) | set("χ×→←∑·−≤’")
+    for beat in lesson.beats:
+        assert set(beat.text + beat.formula) <= allowed
+
+
+def test_a_lesson_is_found_by_its_number_and_a_wrong_one_is_told():
+    assert lessons.find("14").id == "figure_14_cube"
+    assert lessons.find("figure_05").id.startswith("figure_05")
+    with pytest.raises(KeyError, match="there is no lesson '99'"):
+        lessons.find("99")
+
+
+def _ends(lesson: Lesson, beat):
+    b = lesson.beats.index(beat)
+    return at_stop(start(lesson), [s for s in stops(lesson) if s.beat == b][-1])
+
+
+def _is_whole(picture):
+    assert picture.panes
+    for pane in picture.panes:
+        content = pane.content
+        assert isinstance(content, Scene | Diagram)
+        if isinstance(content, Scene):
+            assert sum(len(m.points) for m in content.markers) > 0
+            for markers in content.markers:
+                assert len(markers.points) == len(markers.radius) == len(markers.opacity) == len(markers.ids)
+                assert (markers.radius > 0).all()
+        else:
+            assert content.boxes
