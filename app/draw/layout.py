@@ -4,66 +4,250 @@ One layout serves all painters: the window's overlay, PNG and SVG.
 Coordinates are pixels from the upper left, y downwards.
 """
 
-from dataclasses import dataclass
-from typing import TypeAlias
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
-from app.draw.picture import Colour, Shape
+import numpy as np
 
+from app.draw.labels import placed
+from app.draw.picture import Box, Camera, Diagram, Note, Pane, Picture
+from app.draw.primitives import LEAST, Area, Mark, Plate, Primitive, Stroke, Text
+from app.draw.type import measure, wrapped
 
-@dataclass(frozen=True)
-class Text:
-    """Words with their baseline at ``y``; what stands between dollars is mathematics.  ``size`` in pixels."""
-
-    x: float
-    y: float
-    text: str
-    size: float
-    colour: Colour
-    align: str = "left"
-    bold: bool = False
-    opacity: float = 1.0
-    halo: Colour | None = None
+__all__ = ["Area", "Mark", "Plate", "Primitive", "Stroke", "Text", "extent", "fitted", "overlay", "pane_areas"]
 
 
-@dataclass(frozen=True)
-class Plate:
-    """A filled rectangle with round corners; ``stroke`` None: no outline."""
-
-    x: float
-    y: float
-    width: float
-    height: float
-    fill: Colour | None
-    stroke: Colour | None = None
-    line: float = 1.0
-    radius: float = 0.0
-    opacity: float = 1.0
+# Sizes in logical points: thousandths of the picture's height.
+MARGIN, GAP = 26.0, 14.0
+TITLE, PANE_TITLE, CORNER, LEGEND, CAPTION, FORMULA, NOTE = 36.0, 27.0, 25.0, 25.0, 36.0, 36.0, 25.0
+LINE = 1.3
+"""From one baseline to the next, relative to the size of the type."""
 
 
 @dataclass(frozen=True)
-class Stroke:
-    """A straight line."""
+class _Words:
+    """What stands above and below the panes, and the room that is left between ``top`` and ``bottom``."""
 
-    x0: float
-    y0: float
-    x1: float
-    y1: float
-    colour: Colour
-    width: float
-    opacity: float = 1.0
-    dashed: bool = False
+    placed: tuple[Primitive, ...]
+    top: float
+    bottom: float
 
 
-@dataclass(frozen=True)
-class Mark:
-    """A flat marker, as in the legend; ``size`` is its radius."""
+def overlay(
+    picture: Picture,
+    width: float,
+    height: float,
+    cameras: Sequence[Camera | None] | None = None,
+    words: bool = True,
+) -> tuple[Primitive, ...]:
+    """Everything flat on a picture of ``width`` by ``height`` pixels.
 
-    x: float
-    y: float
-    shape: Shape
-    size: float
-    colour: Colour
-    opacity: float = 1.0
+    ``cameras``, one for each pane, are those the user has turned; None: as the picture says.
+    ``words`` includes the caption and its formula.
+    """
+    found: list[Primitive] = []
+    areas = pane_areas(picture, width, height, words)
+    live = cameras or [None] * len(picture.panes)
+    for pane, area, camera in zip(picture.panes, areas, live, strict=True):
+        if isinstance(pane.content, Diagram):
+            found.extend(_diagram(pane.content, area, picture, height))
+        else:
+            seen = camera or fitted(pane.content.camera, area)
+            found.extend(placed(pane.content, seen, area, height, picture))
+        found.extend(_pane_title(pane, area, picture, height))
+    return (*found, *_words(picture, width, height, words).placed)
 
 
-Primitive: TypeAlias = Text | Plate | Stroke | Mark
+def pane_areas(picture: Picture, width: float, height: float, words: bool = True) -> list[Area]:
+    """Where the panes are, in whole pixels: what title, legend and caption leave free."""
+    around = _words(picture, width, height, words)
+    above = _title_room(picture, height)
+    tall = around.bottom - around.top
+    areas = []
+    for x, y, w, h in (p.rect for p in picture.panes):
+        left, right = round(x * width), round((x + w) * width)
+        top, bottom = round(around.top + y * tall + above), round(around.top + (y + h) * tall)
+        areas.append((float(left), float(top), float(max(right - left, 1)), float(max(bottom - top, 1))))
+    return areas
+
+
+def fitted(camera: Camera, area: Area) -> Camera:
+    """The camera stepped back for a pane too narrow for it: what it shows at a usual shape stays visible."""
+    aspect = area[2] / area[3]
+    if camera.scale:
+        return replace(camera, scale=camera.scale * max(1.0, 1.5 / aspect))
+    tangent = np.tan(np.radians(camera.angle) / 2) * max(1.0, 1.04 / aspect)
+    return replace(camera, angle=float(2 * np.degrees(np.arctan(tangent))))
+
+
+def extent(text: Text) -> Area:
+    """The room some type takes."""
+    width, ascent, descent = measure(text.text, text.size, text.bold)
+    left = text.x - {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width
+    return left, text.y - ascent, width, ascent + descent
+
+
+# -- words round the panes --------------------------------------------------------------------
+
+
+def _words(picture: Picture, width: float, height: float, words: bool) -> _Words:
+    unit = height / 1000
+    head, top = _head(picture, width, unit)
+    foot: list[Primitive] = []
+    bottom = height - 0.5 * MARGIN * unit
+    if words and (picture.caption or picture.formula):
+        foot, bottom = _caption(picture, width, height)
+    legend, bottom = _legend(picture, width, bottom, unit)
+    return _Words((*head, *legend, *foot), top, bottom)
+
+
+def _head(picture: Picture, width: float, unit: float) -> tuple[list[Primitive], float]:
+    """Title upper left, counts upper right or, where there is no room, below the title."""
+    scale, margin = unit * picture.scale, MARGIN * unit
+    y, found = margin, list[Primitive]()
+    counts = measure(picture.corner, CORNER * scale)[0]
+    room = width - 2 * margin
+    lines = wrapped(picture.title, TITLE * scale, room, bold=True)
+    for line in lines:
+        y += TITLE * scale * (0.95 if line is lines[0] else LINE)
+        found.append(Text(margin, y, line, TITLE * scale, picture.ink, bold=True))
+    if picture.corner:
+        last = measure(lines[-1], TITLE * scale, True)[0] if lines else 0.0
+        if not lines or last + counts + 2 * margin > room:
+            y += CORNER * scale * (LINE if lines else 0.95)
+            found.append(Text(margin, y, picture.corner, CORNER * scale, picture.muted))
+        else:
+            found.append(Text(width - margin, y, picture.corner, CORNER * scale, picture.muted, "right"))
+    return found, y + (0.3 * TITLE * scale + 0.4 * GAP * unit if found else 0.0)
+
+
+def _caption(picture: Picture, width: float, height: float) -> tuple[list[Primitive], float]:
+    """The caption centred at the bottom; the formula beside it if both fit on one line, else below."""
+    unit = height / 1000
+    scale, margin = unit * picture.scale, MARGIN * unit
+    size, room = CAPTION * scale, min(width - 2 * margin, 1.72 * height)
+    lines = wrapped(picture.caption, size, room)
+    formula = _fitted_formula(picture.formula, FORMULA * scale, width - 2 * margin, LEAST * unit)
+    apart = 1.6 * size
+    y = height - 0.9 * margin
+    found: list[Primitive] = []
+    if formula:
+        wide, ascent, descent = measure(picture.formula, formula)
+        beside = len(lines) == 1 and measure(lines[0], size)[0] + apart + wide <= width - 2 * margin
+        if beside:
+            total = measure(lines[0], size)[0] + apart + wide
+            y -= max(descent, 0.25 * size)
+            x = (width - total) / 2
+            found.append(Text(x, y, lines[0], size, picture.ink))
+            found.append(Text(x + total, y, picture.formula, formula, picture.ink, "right"))
+            return found, y - max(ascent, size) - 0.6 * GAP * unit
+        y -= descent
+        found.append(Text(width / 2, y, picture.formula, formula, picture.ink, "center"))
+        y -= ascent + 0.12 * size
+    for line in reversed(lines):
+        y -= 0.25 * size
+        found.append(Text(width / 2, y, line, size, picture.ink, "center"))
+        y -= (LINE - 0.25) * size
+    return found, y - 0.4 * GAP * unit
+
+
+def _fitted_formula(formula: str, size: float, room: float, least: float) -> float:
+    """The size of the formula, smaller where it would not fit; 0: there is none."""
+    if not formula:
+        return 0.0
+    wide = measure(formula, size)[0]
+    return max(min(size, size * room / max(wide, 1e-9)), least)
+
+
+def _legend(picture: Picture, width: float, bottom: float, unit: float) -> tuple[list[Primitive], float]:
+    """One row, or as many as are needed, above ``bottom``."""
+    if not picture.legend:
+        return [], bottom
+    scale, margin = unit * picture.scale, MARGIN * unit
+    size = LEGEND * scale
+    rows: list[list[tuple[float, int]]] = [[]]
+    x = margin
+    for k, entry in enumerate(picture.legend):
+        wide = 1.25 * size + measure(entry.text, size)[0]
+        if rows[-1] and x + wide > width - margin:
+            rows.append([])
+            x = margin
+        rows[-1].append((x, k))
+        x += wide + 1.2 * size
+    found: list[Primitive] = []
+    top = bottom - GAP * unit * 0.5 - len(rows) * LINE * size
+    for r, row in enumerate(rows):
+        y = top + (r + 0.95) * LINE * size
+        for x, k in row:
+            e = picture.legend[k]
+            found.append(Mark(x + 0.45 * size, y - 0.36 * size, e.shape, 0.3 * size, e.colour))
+            found.append(Text(x + 1.25 * size, y, e.text, size, picture.muted))
+    return found, top - 0.3 * GAP * unit
+
+
+def _title_room(picture: Picture, height: float) -> float:
+    return PANE_TITLE * LINE * height / 1000 * picture.scale if any(p.title for p in picture.panes) else 0.0
+
+
+def _pane_title(pane: Pane, area: Area, picture: Picture, height: float) -> list[Primitive]:
+    if not pane.title:
+        return []
+    size = PANE_TITLE * height / 1000 * picture.scale
+    wide = measure(pane.title, size, True)[0]
+    size = max(min(size, size * 0.94 * area[2] / wide), LEAST * height / 1000)
+    return [Text(area[0] + area[2] / 2, area[1] - 0.35 * size, pane.title, size, picture.muted, "center", bold=True)]
+
+
+# -- diagrams ---------------------------------------------------------------------------------
+
+
+def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> list[Primitive]:
+    """Boxes, links and notes: cells scaled evenly, in the middle of the pane."""
+    unit = height / 1000
+    left, top, right, bottom = diagram.cells
+    margin = MARGIN * unit
+    room = (area[2] - 2 * margin) / max(right - left, 1e-9), (area[3] - margin) / max(bottom - top, 1e-9)
+    cell = min(*room, 150 * unit)
+    x0 = area[0] + area[2] / 2 - cell * (left + right) / 2
+    y0 = area[1] + area[3] / 2 - cell * (top + bottom) / 2
+    links: list[Primitive] = [
+        Stroke(
+            x0 + cell * k.x0, y0 + cell * k.y0, x0 + cell * k.x1, y0 + cell * k.y1,
+            k.colour, k.width * unit, k.opacity,
+        )
+        for k in diagram.links
+    ]  # fmt: skip
+    size = _box_type(diagram, cell, unit * picture.scale)
+    line = 2 * unit * picture.stroke
+    boxes = [p for b in diagram.boxes for p in _box(b, x0 + cell * b.x, y0 + cell * b.y, cell, size, line)]
+    note_size = max(min(NOTE * unit * picture.scale, 0.5 * cell), LEAST * unit)
+    notes = [_note(n, x0 + cell * n.x, y0 + cell * n.y, note_size, area, margin) for n in diagram.notes]
+    return [*links, *boxes, *notes]
+
+
+def _box_type(diagram: Diagram, cell: float, unit: float) -> float:
+    """One size for all boxes, the largest at which each holds its words."""
+    sizes = [34 * unit]
+    for b in diagram.boxes:
+        if b.text:
+            wide, ascent, descent = measure(b.text, 1.0)
+            sizes += [0.86 * b.width * cell / wide, 0.94 * b.height * cell / (ascent + descent)]
+    return max(min(sizes), LEAST * unit)
+
+
+def _box(box: Box, x: float, y: float, cell: float, size: float, line: float) -> list[Primitive]:
+    w, h = box.width * cell, box.height * cell
+    plate = Plate(x - w / 2, y - h / 2, w, h, box.fill, box.stroke, line, 0.14 * min(w, h), box.opacity)
+    if not box.text:
+        return [plate]
+    _, ascent, descent = measure(box.text, size)
+    middle = (ascent - descent) / 2 if "$" in box.text else 0.36 * size
+    return [plate, Text(x, y + middle, box.text, size, box.ink, "center", opacity=box.opacity)]
+
+
+def _note(note: Note, x: float, y: float, size: float, area: Area, margin: float) -> Text:
+    """Words that stay inside their pane."""
+    text = Text(x, y + 0.36 * size, note.text, size, note.colour, note.align, opacity=note.opacity)
+    left, _, wide, _ = extent(text)
+    most = area[0] + area[2] - 0.3 * margin - wide
+    return replace(text, x=x + max(area[0] + 0.3 * margin, min(left, most)) - left)

@@ -1,0 +1,138 @@
+"""Words at points: none over a marker, none over other words, none outside its pane.
+
+Each label takes the nearest free place round its point, first where it would like to be; one that
+must go further is tied to its point by a thin line.
+"""
+
+from typing import TypeAlias
+
+import numpy as np
+
+from app.draw.picture import Camera, Label, Picture, Scene, Shape
+from app.draw.primitives import LEAST, Area, Primitive, Stroke, Text
+from app.draw.type import measure
+from subdivision.arrays import Floats
+
+DIRECTIONS = np.array([
+    (1, 1), (1, 0), (-1, 1), (-1, 0), (1, -1), (-1, -1), (0, 1), (0, -1),
+    (0.5, 1), (-0.5, 1), (1, 0.5), (-1, 0.5), (0.5, -1), (-0.5, -1), (1, -0.5), (-1, -0.5),
+])  # fmt: skip
+"""Right and up, in the order of preference."""
+
+RINGS = np.concatenate([np.arange(12) * 0.5, 6 + np.arange(14) * 2.0])
+"""How much further off each round of places is, in heights of the label."""
+
+LEADER = 0.9
+"""A label further off than this many of its heights needs a line to its point."""
+
+REACH = {Shape.SPHERE: 1.0, Shape.DIAMOND: 1.28, Shape.CUBE: 1.2, Shape.BEAD: 1.75, Shape.HALO: 1.75}
+"""How far a marker reaches, relative to its radius."""
+
+Point: TypeAlias = tuple[float, float]
+
+FEW = 400
+"""Up to so many strokes, labels try to keep off them."""
+
+
+def placed(scene: Scene, camera: Camera, area: Area, height: float, picture: Picture) -> list[Primitive]:
+    """The labels of a scene in its pane, the largest placed first."""
+    if not scene.labels:
+        return []
+    unit = height / 1000
+    discs, strokes = _discs(scene, camera, area), _samples(scene, camera, area)
+    taken = np.zeros((0, 4))
+    found: list[Primitive] = []
+    for label in sorted(scene.labels, key=lambda one: -one.size):
+        x, y = map(float, _flat(label.at, camera, area)[0, :2])
+        if not (area[0] <= x <= area[0] + area[2] and area[1] <= y <= area[1] + area[3]):
+            continue  # the user has turned or zoomed its point out of the pane
+        size = max(label.size * picture.scale, LEAST) * unit
+        box, off = _best(label, (x, y), size, unit, area, discs, strokes, taken)
+        taken = np.vstack([taken, box])
+        found.extend(_drawn(label, (x, y), size, box, off, picture, unit))
+    return sorted(found, key=lambda one: isinstance(one, Text))
+
+
+def _best(
+    label: Label, at: Point, size: float, unit: float, area: Area, discs: Floats, strokes: Floats, taken: Floats
+) -> tuple[Floats, float]:
+    """The box (left, top, width, height) of the nearest place that is free, and how far off it is in heights."""
+    wide, up, down = measure(label.text, size)
+    tall = up + down
+    here = discs[np.hypot(discs[:, 0] - at[0], discs[:, 1] - at[1]) < discs[:, 2]]
+    clear = here[:, 2].max(initial=0.0) + 0.25 * max(*np.abs(label.away)) * unit
+    first = np.array(label.away) / max(*np.abs(label.away), 1e-9)
+    ways = np.vstack([first, DIRECTIONS]) if max(*np.abs(label.away)) else DIRECTIONS
+    rings, turn = (m.ravel() for m in np.meshgrid(RINGS, np.arange(len(ways)), indexing="ij"))
+    way = ways[turn]
+    # On the diagonal a corner of the box touches the marker, so it may come nearer than a side.
+    reach = clear * np.where(np.abs(way).min(axis=1) > 0.3, 0.75, 1.0) + rings * tall
+    off = way * [1, -1] * (reach[:, None] + np.array([wide, tall * 0.8]) / 2)
+    extent = np.tile([wide, tall], (len(way), 1))
+    boxes = np.hstack([np.array(at) + off - extent / 2, extent])
+    cost = rings * 3.0 + turn * 0.12 + 0.35 * np.minimum(_inside(boxes, strokes), 8)
+    cost += 1e3 * (_outside(boxes, area) + 4 * _overlaps(boxes, taken) + _covered(boxes, discs))
+    best = int(np.argmin(cost))
+    return boxes[best], float(rings[best])
+
+
+def _drawn(
+    label: Label, at: Point, size: float, box: Floats, off: float, picture: Picture, unit: float
+) -> list[Primitive]:
+    _, up, _ = measure(label.text, size)
+    left, top, wide, tall = map(float, box)
+    text = Text(left, top + up, label.text, size, label.colour, opacity=label.opacity, halo=picture.background)
+    if off <= LEADER:
+        return [text]
+    x, y = float(np.clip(at[0], left, left + wide)), float(np.clip(at[1], top, top + tall))
+    return [Stroke(at[0], at[1], x, y, label.colour, 1.4 * unit, 0.6 * label.opacity), text]
+
+
+def _flat(points: Floats, camera: Camera, area: Area) -> Floats:
+    """(n, 3): pixels of the whole picture, and depth."""
+    return np.asarray(camera.project(points, area[2], area[3]) + np.array([area[0], area[1], 0.0]))
+
+
+def _discs(scene: Scene, camera: Camera, area: Area) -> Floats:
+    """(n, 3): centre and radius of every marker on the picture."""
+    found = [np.zeros((0, 3))]
+    for m in scene.markers:
+        flat = _flat(m.points, camera, area)
+        half = np.full(len(flat), camera.scale) if camera.scale else flat[:, 2] * np.tan(np.radians(camera.angle) / 2)
+        found.append(np.column_stack([flat[:, :2], REACH[m.shape] * m.radius * area[3] / 2 / np.maximum(half, 1e-9)]))
+    return np.vstack(found)
+
+
+def _samples(scene: Scene, camera: Camera, area: Area) -> Floats:
+    """(n, 2): places along the strokes; none where there are too many to keep off."""
+    if sum(len(k.pairs) for k in scene.lines) > FEW:
+        return np.zeros((0, 2))
+    at = (np.arange(16) + 0.5)[:, None, None] / 16
+    ends = [_flat(k.points[k.pairs].reshape(-1, 3), camera, area)[:, :2].reshape(-1, 2, 2) for k in scene.lines]
+    both = np.concatenate([np.zeros((0, 2, 2)), *ends])
+    return np.asarray(((1 - at) * both[:, 0] + at * both[:, 1]).reshape(-1, 2))
+
+
+def _outside(boxes: Floats, area: Area) -> Floats:
+    low, high = boxes[:, :2] - area[:2], np.array([area[0] + area[2], area[1] + area[3]]) - boxes[:, :2] - boxes[:, 2:]
+    return np.asarray(50.0 * (np.minimum(low, high).min(axis=1) < 0))
+
+
+def _overlaps(boxes: Floats, taken: Floats) -> Floats:
+    """(n,): how many of the taken boxes each box overlaps."""
+    a, b = boxes[:, None], taken[None]
+    apart = (a[..., :2] >= b[..., :2] + b[..., 2:]) | (b[..., :2] >= a[..., :2] + a[..., 2:])
+    return np.asarray((~apart.any(axis=2)).sum(axis=1), dtype=float)
+
+
+def _covered(boxes: Floats, discs: Floats) -> Floats:
+    """(n,): how many markers each box covers, at least in part."""
+    near = np.clip(discs[None, :, :2], boxes[:, None, :2], boxes[:, None, :2] + boxes[:, None, 2:])
+    far = np.linalg.norm(near - discs[None, :, :2], axis=2)
+    return np.asarray((far < discs[None, :, 2]).sum(axis=1), dtype=float)
+
+
+def _inside(boxes: Floats, points: Floats) -> Floats:
+    """(n,): how many of the points lie in each box."""
+    off = points[None] - boxes[:, None, :2]
+    return np.asarray(((off >= 0) & (off <= boxes[:, None, 2:])).all(axis=2).sum(axis=1), dtype=float)

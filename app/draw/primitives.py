@@ -1,0 +1,74 @@
+"""The flat strokes and marks a layout is made of; every painter knows these four and no more.
+
+Coordinates are pixels from the upper left, y downwards.
+"""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from app.draw.picture import Colour, Shape
+
+
+@dataclass(frozen=True)
+class Text:
+    """Words with their baseline at ``y``; what stands between dollars is mathematics.  ``size`` in pixels."""
+
+    x: float
+    y: float
+    text: str
+    size: float
+    colour: Colour
+    align: str = "left"
+    bold: bool = False
+    opacity: float = 1.0
+    halo: Colour | None = None
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A filled rectangle with round corners; ``stroke`` None: no outline."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    fill: Colour | None
+    stroke: Colour | None = None
+    line: float = 1.0
+    radius: float = 0.0
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A straight line."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    colour: Colour
+    width: float
+    opacity: float = 1.0
+    dashed: bool = False
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A flat marker, as in the legend; ``size`` is its radius."""
+
+    x: float
+    y: float
+    shape: Shape
+    size: float
+    colour: Colour
+    opacity: float = 1.0
+
+
+Primitive: TypeAlias = Text | Plate | Stroke | Mark
+
+Area: TypeAlias = tuple[float, float, float, float]
+"""A pane in pixels from the upper left: x, y, width, height."""
+
+LEAST = 1000 / 45
+"""The smallest type, in logical points: thousandths of the picture's height."""
