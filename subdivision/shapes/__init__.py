@@ -1,4 +1,4 @@
-"""Control objects small enough to count by hand: polygons, nets, fragments and solids.
+"""Control objects small enough to count by hand: polygons, nets, fragments, solids; and three to remember.
 
 All are centred, about as large as the unit ball, with z up and faces counter-clockwise from
 outside.
@@ -7,6 +7,7 @@ outside.
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+from subdivision.shapes.characters import duck, mug, pawn
 from subdivision.shapes.fans import (
     face_and_ring,
     quad_fan,
@@ -37,6 +38,9 @@ SHAPES: Mapping[str, Callable[[], Mesh]] = MappingProxyType({
     "quad-bipyramid": quad_bipyramid,
     "quad-fan": lambda: quad_fan(6, rings=2),
     "quad-sheet": quad_sheet,
+    "duck": duck,
+    "mug": mug,
+    "pawn": pawn,
     "tetrahedron": tetrahedron,
     "octahedron": octahedron,
     "icosahedron": icosahedron,
@@ -55,7 +59,7 @@ SHAPES: Mapping[str, Callable[[], Mesh]] = MappingProxyType({
 """Menus and the command line offer these, in this order; words are joined by hyphens."""
 
 __all__ = [
-    "SHAPES", "bipyramid", "closed_polygon", "cube", "cylinder_net", "face_and_ring", "hook", "icosahedron", "net",
-    "octahedron", "plus_sign", "polygon", "quad_bipyramid", "quad_fan", "quad_sheet", "tetrahedron", "torus",
-    "torus_net", "triangle_fan", "triangle_sheet", "triangle_torus", "two_triangles_and_ring",
+    "SHAPES", "bipyramid", "closed_polygon", "cube", "cylinder_net", "duck", "face_and_ring", "hook", "icosahedron",
+    "mug", "net", "octahedron", "pawn", "plus_sign", "polygon", "quad_bipyramid", "quad_fan", "quad_sheet",
+    "tetrahedron", "torus", "torus_net", "triangle_fan", "triangle_sheet", "triangle_torus", "two_triangles_and_ring",
 ]  # fmt: skip
