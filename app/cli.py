@@ -5,11 +5,12 @@ import json
 import sys
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from itertools import groupby
 from pathlib import Path
 
 import lessons
 from lessons.script import Lesson
-from subdivision import Boundary, Mesh, Topology, TopologyError, files, subdivide
+from subdivision import Boundary, Mesh, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
 from subdivision.exact import Exact, spelled
 from subdivision.schemes import SCHEMES
@@ -84,9 +85,7 @@ def subdivide_file(options: argparse.Namespace) -> None:
     """Read a mesh, subdivide it, write it."""
     mesh = files.read(options.input)
     scheme = NAMES[options.scheme]
-    if not isinstance(mesh.topology, Topology):
-        raise Fault(f"{options.input} holds no polygon mesh")
-    control = Mesh(mesh.topology.with_boundary(Boundary(options.boundary)), mesh.points)
+    control = Mesh(mesh.surface.with_boundary(Boundary(options.boundary)), mesh.points)
     _require_room(control, options.levels)
     fine = subdivide(control, scheme, options.levels)
     if options.limit:
@@ -103,17 +102,19 @@ def print_stencil(options: argparse.Namespace) -> None:
     from subdivision.spectrum import stencil_by_valence
 
     scheme = NAMES[options.scheme]
-    weights = stencil_by_valence(scheme, options.valence, options.point)
+    terms = stencil_by_valence(scheme, options.valence, options.point).terms
     if options.json:
-        exact = {name: {"weight": str(w), "value": float(w)} for name, w in weights.items()}
+        exact = {name: {"weight": str(w), "value": float(w)} for name, w in terms}
         head = {"scheme": scheme.name, "valence": options.valence, "point": options.point}
         print(json.dumps({**head, "weights": exact}, indent=2, ensure_ascii=False))
         return
     print(f"{scheme.title}: {options.point} point at valence {options.valence}")
-    width = max(map(len, weights))
-    for name, w in weights.items():
-        print(f"  {name:<{width}}  {_written(w)}")
-    print(f"  {'sum':<{width}}  {spelled(sum(weights.values(), Fraction(0)))}")
+    grouped = groupby(terms, key=lambda term: term[1])
+    rows = [(" ".join(name for name, _ in alike), _written(w)) for w, alike in grouped]
+    rows.append(("sum", spelled(sum((w for _, w in terms), Fraction(0)))))
+    width = max(len(names) for names, _ in rows)
+    for names, w in rows:
+        print(f"  {names:<{width}}  {w}" + (" each" if " " in names else ""))
 
 
 def print_mask(options: argparse.Namespace) -> None:
@@ -213,7 +214,7 @@ def _lesson(name: str) -> Lesson:
 
 
 def _require_room(control: Mesh, levels: int) -> None:
-    t = control.topology
+    t = control.surface
     faces = t.n_halfedges * 4 ** (levels - 1) if not t.is_triangular and levels else t.n_faces * 4**levels
     if faces > MOST_FACES:
         raise Fault(f"{levels} levels would make {faces:,} faces; choose fewer levels (at most {MOST_FACES:,} faces)")

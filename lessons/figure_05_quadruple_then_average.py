@@ -22,7 +22,7 @@ def figure_05_quadruple_then_average() -> Iterator[Beat]:
         return beside(beat, diagram_of(beat))
 
     yield with_array(show(told, None, "A net of control points, three by three.", look=LOOK,
-                          claim=told.control.topology.shape == (3, 3)))
+                          claim=told.control.topology.n_vertices == 9))
     yield with_array(play(told, quadruple, "(a) Split: write every point four times. Nothing moves.", look=LOOK,
                           formula=r"$U_{2i+a,\,2j+b} = P_{ij},\quad a, b \in \{0, 1\}$",
                           claim=quadruple.n_points == 4 * 9 and not quadruple.moves))

@@ -31,6 +31,6 @@ def figure_14_cube() -> Iterator[Beat]:
     yield play(told, later[0], "Again: topology, centroids, geometry. New vertices always have valence 4.",
                until=later[2], claim=set(later[0].topology.valence[8:]) == {4})
     yield play(told, later[3], "And again. The eight extraordinary vertices move apart, surrounded by ordinary ones.",
-               until=later[5], claim=int(told.mesh_at(9).topology.extraordinary.sum()) == 8)
+               until=later[5], claim=int(told.mesh_at(9).surface.extraordinary.sum()) == 8)
     yield show(told, later[5], "384 faces. Smooth everywhere: twice differentiable, but at the eight only once.",
                claim=later[5].topology.n_faces == 384)

@@ -14,7 +14,7 @@ LOOK = Look(azimuth=-62.0, elevation=48.0, zoom=1.3)
 def figure_22_quartic() -> Iterator[Beat]:
     told = trace(TRIANGLE_CENTROID, fragment(shapes.two_triangles_and_ring()))
     topology, centroids, geometry = told.stages
-    control = told.control.topology
+    control = told.control.surface
     vertex = next(v for v in range(control.n_vertices) if not control.on_boundary[v])
     edge_point = next(int(v) for v in topology.born if len(told.whole.stencil(int(v)).terms) == 4)
 

@@ -187,7 +187,7 @@ def diagram_of(beat: Beat, title: str = "") -> View:
 
 def fragment(mesh: Mesh) -> Mesh:
     """A piece of a larger mesh: the faces that touch its boundary are there for the others, and drawn faint."""
-    return Mesh(mesh.topology.with_boundary(Boundary.HIDE), mesh.points)
+    return Mesh(mesh.surface.with_boundary(Boundary.HIDE), mesh.points)
 
 
 def look_at(trace: Trace) -> Look:

@@ -133,7 +133,7 @@ def _refined_rules(t: Topology, fine: Topology) -> VertexRules:
 
 
 def _on_halves(sharp: Mask, inner: Mask) -> Mask:
-    return np.r_[np.repeat(sharp, 2), inner]
+    return np.concatenate([np.repeat(sharp, 2), inner])
 
 
 def _lawful(t: Topology) -> VertexRules:
@@ -159,4 +159,4 @@ def _vertex_points(operator: Operator, t: Topology, n: int, roles: Indices) -> S
 
 def _grown(old: int, new: int) -> Indices:
     """``carries`` of a stage that keeps ``old`` points and brings ``new`` ones."""
-    return np.r_[np.arange(old), np.full(new, -1)]
+    return np.concatenate([np.arange(old), np.full(new, -1)])

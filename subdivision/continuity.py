@@ -106,5 +106,5 @@ def placement(vectors: Sequence[Vector]) -> Floats:
     The index counts from where the unshortened net began: a pass along a vector with a
     negative entry drops that many points from the front.
     """
-    rest = np.array(vectors, dtype=float).sum(axis=0) - (1, 1)
+    rest: Floats = np.array(vectors, dtype=float).sum(axis=0) - (1, 1)
     return (1 - rest) / 2

@@ -16,7 +16,7 @@ from functools import cached_property
 from typing import overload
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array, vstack
+from scipy.sparse import csr_array, diags_array
 
 from subdivision.arrays import Floats, Indices, Mask
 from subdivision.exact import Exact, Row, add_rows
@@ -36,7 +36,7 @@ class Weights:
         return values
 
     def __getitem__(self, row: int) -> Exact:
-        return self.table[self.index[row]]
+        return self.table[int(self.index[row])]
 
     def __rsub__(self, number: int) -> "Weights":
         return Weights(tuple(number - w for w in self.table), self.index)
@@ -267,10 +267,15 @@ class Stack(Operator):
         return np.concatenate([b.apply(points[: b.shape[1]]) for b in self.blocks])
 
     def assemble(self) -> csr_array:
-        matrices = [b.assemble() for b in self.blocks]
-        for matrix in matrices:
-            matrix.resize(matrix.shape[0], self.shape[1])
-        return csr_array(vstack(matrices))
+        rows, columns, entries, above = [], [], [], 0
+        for block in self.blocks:
+            part = block.assemble().tocoo()
+            rows.append(part.row + above)
+            columns.append(part.col)
+            entries.append(part.data)
+            above += block.shape[0]
+        places = np.concatenate(rows), np.concatenate(columns)
+        return csr_array((np.concatenate(entries), places), shape=self.shape)
 
     def row(self, i: int) -> Row:
         for block in self.blocks:

@@ -64,7 +64,7 @@ def worn(sharpness: Floats) -> Floats:
 
 def _halves(t: Topology, inner: int) -> Floats:
     """Edge ``e`` becomes edges ``2e`` and ``2e + 1``; ``inner`` smooth edges follow."""
-    return np.r_[np.repeat(worn(t.edge_sharpness), 2), np.zeros(inner)]
+    return np.concatenate([np.repeat(worn(t.edge_sharpness), 2), np.zeros(inner)])
 
 
 def _child(parent: Indices, child: Indices) -> Indices:

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -10,13 +9,14 @@ from subdivision.arrays import Floats, Indices, Mask, frozen
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step
+from subdivision.topology import Topology, TopologyError
 
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """Positions ``points`` (n_vertices, 3) float on a ``topology``: a polygon, a net or a polygon mesh."""
 
-    topology: Any
+    topology: Connectivity
     points: Floats
 
     def __post_init__(self) -> None:
@@ -24,6 +24,19 @@ class Mesh:
         if points.shape != (self.topology.n_vertices, 3):
             raise ValueError(f"{self.topology.n_vertices} vertices need points of shape (n, 3), not {points.shape}")
         object.__setattr__(self, "points", frozen(points))
+
+    @property
+    def surface(self) -> Topology:
+        """The half-edge topology of a polygon mesh.
+
+        Raises
+        ------
+        TopologyError
+            If this is a polygon or a net.
+        """
+        if not isinstance(self.topology, Topology):
+            raise TopologyError("this control object is not a polygon mesh")
+        return self.topology
 
     def moved(self, vertex: int, to: Floats) -> "Mesh":
         """The same connectivity with one vertex elsewhere."""
@@ -61,7 +74,7 @@ class Frame:
         How many subdivision steps are complete.
     """
 
-    topology: Any
+    topology: Connectivity
     points: Floats
     start: Floats
     birth: Floats

@@ -11,7 +11,7 @@ from app.draw.picture import Camera, Diagram, Entry, Faces, Label, Lines, Marker
 from app.draw.theme import NAMES, SHAPES, SIZES, THEMES, Theme
 from app.state import Options, State, level_of
 from lessons.script import Beat, Kind, Look, View
-from subdivision import Frame, Role, Stencil, Trace
+from subdivision import Connectivity, Frame, Role, Stencil, Topology, Trace
 from subdivision.arrays import Floats, Mask
 from subdivision.exact import spelled_together
 
@@ -183,12 +183,9 @@ def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
 
 
-def _sharp(t: object) -> Mask:
+def _sharp(t: Connectivity) -> Mask:
     """(n_edges,) bool: inner edges with a crease on them."""
-    sharpness = getattr(t, "edge_sharpness", None)
-    if sharpness is None:
-        return np.zeros(len(t.ends), dtype=bool)  # type: ignore[attr-defined]
-    return np.asarray((sharpness > 0) & ~t.boundary)  # type: ignore[attr-defined]
+    return (t.edge_sharpness > 0) & ~t.boundary if isinstance(t, Topology) else np.zeros(t.n_edges, dtype=np.bool_)
 
 
 def _ghost(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:

@@ -13,8 +13,10 @@ import numpy as np
 from app.draw.motion import eased
 from app.draw.picture import Box, Colour, Diagram, Link, Note
 from app.draw.theme import Theme
-from subdivision import Grid, Polyline, Role, Stage, Step, Trace
+from subdivision import Connectivity, Grid, Polyline, Role, Stage, Step, Trace
+from subdivision.arrays import Floats
 from subdivision.exact import spelled
+from subdivision.passes import as_grid
 from subdivision.stage import Stencil
 
 TINT = 0.24
@@ -30,7 +32,7 @@ def diagram(trace: Trace, at: float, theme: Theme) -> Diagram:
     return drawn(trace.topology_at(begin), stages, eased(at) - begin, theme)
 
 
-def drawn(control: object, stages: tuple[Stage, ...], at: float, theme: Theme) -> Diagram:
+def drawn(control: Connectivity, stages: tuple[Stage, ...], at: float, theme: Theme) -> Diagram:
     """The stages of one step, ``at`` of them done."""
     if isinstance(control, Grid):
         return _array(control, stages, at, theme)
@@ -110,7 +112,7 @@ def _array(control: Grid, stages: tuple[Stage, ...], at: float, theme: Theme) ->
 
 
 def _sliding(
-    control: Grid, sofar: tuple[Stage, ...], stage: Stage, before: object, t: float, theme: Theme
+    control: Grid, sofar: tuple[Stage, ...], stage: Stage, before: Connectivity, t: float, theme: Theme
 ) -> list[Box]:
     new, old = _places(stage.topology), _places(before)
     step, earlier = Step(sofar), Step(sofar[:-1]) if len(sofar) > 1 else None
@@ -132,17 +134,18 @@ def _sliding(
     return boxes
 
 
-def _places(grid: object) -> np.ndarray:
+def _places(net: Connectivity) -> Floats:
     """(n, 2): the cell of every point of a net, the net centred."""
-    assert isinstance(grid, Grid)
+    grid = as_grid(net)
     i, j = np.divmod(np.arange(grid.n_vertices), grid.n_t)
     return np.stack([i - (grid.n_s - 1) / 2, (grid.n_t - 1) / 2 - j], axis=1)
 
 
-def _filled(n: int, t: float) -> np.ndarray:
+def _filled(n: int, t: float) -> Floats:
     """(n,) opacities in 0..1: boxes appear one after the other while ``t`` runs from 0 to 1."""
     soft = max(3.0, n / 4)
-    return np.clip((min(t, 1.0) * (n + soft) - np.arange(n)) / soft, 0, 1)
+    filled: Floats = np.clip((min(t, 1.0) * (n + soft) - np.arange(n)) / soft, 0, 1)
+    return filled
 
 
 def _box(x: float, y: float, text: str, role: Role, theme: Theme, opacity: float, point: int) -> Box:

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from subdivision.arrays import Floats
+from subdivision.passes import as_grid
 from subdivision.topology import Topology
 from subdivision.trace import Mesh
 
@@ -19,7 +20,7 @@ def mesh(points: Points, faces: Faces, creases: Mapping[tuple[int, int], float] 
 
 def meshed(net: Mesh) -> Mesh:
     """A rectangular net as a polygon mesh, same points in the same order."""
-    return Mesh(net.topology.mesh(), net.points)
+    return Mesh(as_grid(net.topology).mesh(), net.points)
 
 
 def turns(n: int, start: float = 0.0) -> Floats:

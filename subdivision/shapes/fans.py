@@ -76,7 +76,7 @@ def face_and_ring() -> Mesh:
     old = net(4, 4)
     order = np.array([5, 9, 10, 6, 0, 4, 8, 12, 13, 14, 15, 11, 7, 3, 2, 1])
     new = np.argsort(order)
-    loops = [new[loop].tolist() for loop in meshed(old).topology.loops()]
+    loops = [new[loop].tolist() for loop in meshed(old).surface.loops()]
     return mesh(old.points[order], [loops[4], *loops[:4], *loops[5:]])
 
 

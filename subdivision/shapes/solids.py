@@ -71,7 +71,7 @@ def quad_bipyramid(n: int = 5) -> Mesh:
     ``n``; the ``2n`` face points have 3, all others 4.
     """
     triangles = bipyramid(n)
-    t, points = triangles.topology, triangles.points
+    t, points = triangles.surface, triangles.points
     centroids, midpoints = face_centroids(t).apply(points), edge_midpoints(t).apply(points)
     return Mesh(refine.quads(t), np.concatenate([points, centroids, midpoints]))
 

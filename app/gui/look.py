@@ -1,0 +1,157 @@
+"""The window's looks from a theme: palette, style sheet, typeface and icons."""
+
+from functools import cache
+
+from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QFontDatabase, QIcon, QPainter, QPalette, QPixmap
+from PySide6.QtSvg import QSvgRenderer
+from PySide6.QtWidgets import QApplication
+
+from app import ASSETS
+from app.draw.picture import Colour
+from app.draw.theme import THEMES, Theme
+
+FAMILY = "Inter"
+GRID = 8
+"""All distances in the window are multiples of it (or of its half), in pixels."""
+
+
+def colour(value: Colour, opacity: float = 1.0) -> QColor:
+    return QColor.fromRgbF(*value, opacity)
+
+
+def mixed(a: Colour, b: Colour, t: float) -> Colour:
+    """``t`` of the way from ``a`` to ``b``."""
+    red, green, blue = (x + t * (y - x) for x, y in zip(a, b, strict=True))
+    return red, green, blue
+
+
+def line_of(theme: Theme) -> Colour:
+    """Hairlines between parts of the window."""
+    return mixed(theme.panel, theme.ink, 0.16)
+
+
+def tint_of(theme: Theme) -> Colour:
+    """What lies under the mouse."""
+    return mixed(theme.panel, theme.ink, 0.08)
+
+
+def chosen_of(theme: Theme) -> Colour:
+    """What is chosen."""
+    return mixed(theme.panel, theme.accent, 0.20)
+
+
+def type_face(pixels: float, weight: QFont.Weight = QFont.Weight.Normal) -> QFont:
+    """The house typeface, with figures of equal width."""
+    font = QFont(FAMILY)
+    font.setPixelSize(max(round(pixels), 1))
+    font.setWeight(weight)
+    font.setFeature(QFont.Tag.fromString("tnum"), 1)
+    return font
+
+
+def load_fonts() -> None:
+    for file in sorted((ASSETS / "fonts").glob("*.otf")):
+        QFontDatabase.addApplicationFont(str(file))
+
+
+def dress(app: QApplication, theme: Theme) -> None:
+    """Give the whole program the colours of a theme."""
+    app.setFont(type_face(14))
+    app.setPalette(palette(theme))
+    app.setStyleSheet(sheet(theme))
+
+
+def palette(theme: Theme) -> QPalette:
+    found = QPalette()
+    role = QPalette.ColorRole
+    colours = {
+        role.Window: theme.panel, role.WindowText: theme.ink, role.Base: theme.background, role.Text: theme.ink,
+        role.AlternateBase: theme.panel, role.Button: theme.panel, role.ButtonText: theme.ink,
+        role.ToolTipBase: theme.ink, role.ToolTipText: theme.background, role.PlaceholderText: theme.muted,
+        role.Highlight: theme.accent, role.HighlightedText: theme.background, role.Link: theme.accent,
+        role.BrightText: theme.selection, role.Accent: theme.accent,
+    }  # fmt: skip
+    for which, value in colours.items():
+        found.setColor(which, colour(value))
+    for which in (role.WindowText, role.Text, role.ButtonText):
+        found.setColor(QPalette.ColorGroup.Disabled, which, colour(mixed(theme.panel, theme.ink, 0.45)))
+    return found
+
+
+SHEET = """
+QMenuBar { background: $panel; padding: 2px 4px; border: none; }
+QMenuBar::item { padding: 4px 8px; border-radius: 4px; background: transparent; }
+QMenuBar::item:selected { background: $tint; }
+QMenu { background: $background; border: 1px solid $line; padding: 4px; }
+QMenu::item { padding: 6px 28px 6px 28px; border-radius: 4px; }
+QMenu::item:selected { background: $chosen; color: $ink; }
+QMenu::item:disabled { color: $faded; }
+QMenu::separator { height: 1px; background: $line; margin: 4px 8px; }
+QMenu::indicator { width: 16px; height: 16px; left: 6px; }
+QToolButton { border: none; border-radius: 6px; padding: 4px; background: transparent; }
+QToolButton:hover { background: $tint; }
+QToolButton:pressed, QToolButton:checked { background: $chosen; }
+QToolButton:focus { outline: none; border: 2px solid $accent; padding: 2px; }
+QToolButton::menu-indicator { image: none; }
+QPushButton { border: 1px solid $line; border-radius: 6px; padding: 4px 16px; background: $background; }
+QPushButton:hover { background: $tint; }
+QPushButton:focus { border: 2px solid $accent; padding: 3px 15px; }
+QLineEdit { border: 1px solid $line; border-radius: 6px; padding: 5px 8px; background: $background; }
+QLineEdit:focus { border: 2px solid $accent; padding: 4px 7px; }
+QListView { border: none; background: transparent; outline: none; }
+QScrollArea { border: none; background: transparent; }
+QScrollBar:vertical { width: 8px; background: transparent; margin: 0; }
+QScrollBar::handle:vertical { background: $line; border-radius: 4px; min-height: 32px; }
+QScrollBar:horizontal { height: 8px; background: transparent; margin: 0; }
+QScrollBar::handle:horizontal { background: $line; border-radius: 4px; min-width: 32px; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
+QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
+QSplitter::handle { background: $line; }
+QToolTip { background: $ink; color: $background; border: none; padding: 4px 8px; }
+QProgressBar { border: none; border-radius: 2px; background: $line; max-height: 4px; }
+QProgressBar::chunk { background: $accent; border-radius: 2px; }
+"""
+
+
+def sheet(theme: Theme) -> str:
+    """What the palette cannot say: space, hairlines, round corners."""
+    words = {
+        "$background": theme.background, "$panel": theme.panel, "$ink": theme.ink, "$accent": theme.accent,
+        "$tint": tint_of(theme), "$line": line_of(theme), "$chosen": chosen_of(theme),
+        "$faded": mixed(theme.panel, theme.ink, 0.45),
+    }  # fmt: skip
+    text = SHEET
+    for word, value in words.items():
+        text = text.replace(word, colour(value).name())
+    return text
+
+
+@cache
+def icon(name: str, theme_name: str) -> QIcon:
+    """One of ``assets/icons`` in the ink of a theme, in the sizes that screens ask for."""
+    theme = THEMES[theme_name]
+    found = QIcon()
+    faded = mixed(theme.panel, theme.ink, 0.35)
+    for ink, mode in ((theme.ink, QIcon.Mode.Normal), (faded, QIcon.Mode.Disabled)):
+        drawing = (ASSETS / "icons" / f"{name}.svg").read_text().replace("currentColor", colour(ink).name())
+        for size in (16, 20, 24, 32, 40, 48, 64, 96):
+            found.addPixmap(drawn(drawing, size), mode)
+    return found
+
+
+def drawn(svg: str, size: int) -> QPixmap:
+    """An SVG as a square picture of ``size`` pixels."""
+    pixmap = QPixmap(QSize(size, size))
+    pixmap.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(pixmap)
+    QSvgRenderer(QByteArray(svg.encode())).render(painter, QRectF(0, 0, size, size))
+    painter.end()
+    return pixmap
+
+
+def studio_icon() -> QIcon:
+    found = QIcon()
+    for size in (16, 32, 48, 128, 256):
+        found.addPixmap(drawn((ASSETS / "icons" / "studio.svg").read_text(), size))
+    return found

@@ -1,0 +1,112 @@
+"""The one object that holds the state: views listen to ``changed``, and every wish goes through ``do``."""
+
+from collections.abc import Callable
+from dataclasses import fields, replace
+from typing import Any, TypeAlias
+
+from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
+
+from app.state import State, drag, look, seek, settle, tick
+
+STAGE = 0.8
+"""Seconds a stage takes at speed 1."""
+
+FRAME = 16
+"""Milliseconds between frames while playing."""
+
+SLOWEST = 100
+"""Milliseconds: a frame that took longer counts as this, so that motion is never skipped."""
+
+REMEMBERED = 500
+"""How many changes can be undone."""
+
+Transition: TypeAlias = Callable[..., State]
+
+GESTURES = (seek, drag)
+"""Many of these in a row are one change to undo, until the hand lets go."""
+
+
+class Session(QObject):
+    """The state over time: what was, what was undone, and the clock that plays."""
+
+    changed = Signal(object)
+
+    def __init__(self, state: State, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.state = state
+        self._past: list[State] = []
+        self._future: list[State] = []
+        self._gesture: Transition | None = None
+        self._clock = QElapsedTimer()
+        self._timer = QTimer(self, interval=FRAME, timerType=Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self._advance)
+
+    @property
+    def can_undo(self) -> bool:
+        return bool(self._past)
+
+    @property
+    def can_redo(self) -> bool:
+        return bool(self._future)
+
+    def do(self, transition: Transition, *args: Any, **options: Any) -> None:
+        """Apply a transition of ``app.state``, remember what was before, and tell everybody."""
+        before, after = self.state, transition(self.state, *args, **options)
+        if _parts(before) == _parts(after):
+            return
+        if not (_is_passing(transition, before, after) or (transition in GESTURES and transition == self._gesture)):
+            self._past = [*self._past[-REMEMBERED:], settle(before)]
+            self._future = []
+        if transition is not look:
+            self._gesture = transition
+        self._become(after)
+
+    def let_go(self) -> None:
+        """The hand lets go: the next drag or scrub is another change."""
+        self._gesture = None
+
+    def undo(self) -> None:
+        self._travel(self._past, self._future)
+
+    def redo(self) -> None:
+        self._travel(self._future, self._past)
+
+    def stop(self) -> None:
+        """Play no more: the window is closing."""
+        self._timer.stop()
+
+    def _travel(self, source: list[State], other: list[State]) -> None:
+        if source:
+            other.append(settle(self.state))
+            self._gesture = None
+            now = self.state.options
+            kept = source.pop()
+            options = replace(kept.options, presenting=now.presenting, blank=now.blank)
+            self._become(kept if options == kept.options else replace(kept, options=options))
+
+    def _become(self, state: State) -> None:
+        self.state = state
+        if state.is_playing and not self._timer.isActive():
+            self._clock.start()
+            self._timer.start()
+        if not state.is_playing:
+            self._timer.stop()
+        self.changed.emit(state)
+
+    def _advance(self) -> None:
+        seconds = min(self._clock.restart(), SLOWEST) / 1000
+        self.do(tick, seconds * self.state.options.speed / STAGE)
+
+
+def _parts(state: State) -> tuple[Any, ...]:
+    return tuple(getattr(state, each.name) for each in fields(state))
+
+
+def _is_passing(transition: Transition, before: State, after: State) -> bool:
+    """Whether a change is part of one already remembered (playing on, pausing), or nothing anybody would undo."""
+    is_pause = before.is_playing and not after.is_playing and (before.beat, before.at) == (after.beat, after.at)
+    return transition in (tick, look) or is_pause or _parts(_plain(before)) == _parts(_plain(after))
+
+
+def _plain(state: State) -> State:
+    return replace(state, focus=None, options=replace(state.options, presenting=False, blank=False))
