@@ -12,7 +12,7 @@ def net(n_s: int = 5, n_t: int = 5, *, diagonal: bool = False) -> Mesh:
 
     Bicubics and quartics need 4 points a side to make a surface at all, and 5 for it to grow.
     """
-    x, y = np.meshgrid(np.linspace(-1.2, 1.2, n_s), np.linspace(-1.2, 1.2, n_t), indexing="ij")
+    x, y = np.meshgrid(np.linspace(-1.1, 1.1, n_s), np.linspace(-1.1, 1.1, n_t), indexing="ij")
     z = 0.4 * np.sin(2.1 * x + 1.1 * y - 0.6) + 0.3 * np.sin(1.3 * x - 1.8 * y + 1.8)
     points = np.stack([x, y, z - (z.min() + z.max()) / 2], axis=-1)
     return Mesh(Grid(n_s, n_t, diagonal=diagonal), points.reshape(-1, 3))

@@ -25,4 +25,4 @@ def closed_polygon(n: int = 6) -> Mesh:
     radii = np.resize([1.35, 1.25, 0.15, 1.4, 1.1, 1.2], n)
     angles = turns(n, start=-0.4)
     points = np.stack([radii * np.cos(angles), radii * np.sin(angles), np.zeros(n)], axis=1)
-    return Mesh(Polyline(n, closed=True), points)
+    return Mesh(Polyline(n, closed=True), points - (points.min(axis=0) + points.max(axis=0)) / 2)
