@@ -68,11 +68,6 @@ def is_smooth(n: int, beta: Exact | int) -> bool:
     return n >= 3 and abs(float(Fraction(5, 8) - n * beta)) < float(triangle_lambda(n))
 
 
-def beta_min(n: int) -> Exact:
-    """``(1 - cos(2 pi/n))/(4 n)``: a triangle scheme is C1 at valence ``n`` only if its beta is larger."""
-    return (1 - cosine(n)) * Fraction(1, 4 * n)
-
-
 def quad_lambda(n: int) -> Exact:
     """``(5 + c + cos(pi/n) sqrt(2 (9 + c)))/16`` with ``c = cos(2 pi/n)``: what a ring shrinks by [Stam98]_."""
     if n in (2, 4):
