@@ -76,7 +76,7 @@ def natural_scheme(mesh: Mesh) -> Scheme:
 def volume(mesh: Mesh) -> float:
     """A sixth of the sum of the determinants of fan triangles: positive if faces are counter-clockwise from outside."""
     total = 0.0
-    for loop in mesh.topology.loops():
+    for loop in mesh.surface.loops():
         corners = mesh.points[loop]
         for b, c in pairwise(corners[1:]):
             total += float(corners[0] @ np.cross(b, c)) / 6
@@ -87,7 +87,7 @@ def flatness(mesh: Mesh) -> float:
     """The smallest extent of any face: 0 where all are planar."""
     return max(
         float(np.linalg.svd(mesh.points[loop] - mesh.points[loop].mean(axis=0), compute_uv=False)[-1])
-        for loop in mesh.topology.loops()
+        for loop in mesh.surface.loops()
     )
 
 
@@ -99,18 +99,18 @@ def counts(t: Topology) -> tuple[int, int, int]:
 def test_counts_by_level_are_those_of_the_table(name: str) -> None:
     mesh = shapes.SHAPES[name]()
     for expected in COUNTS[name]:
-        assert counts(mesh.topology) == expected
+        assert counts(mesh.surface) == expected
         mesh = subdivide(mesh, natural_scheme(mesh), 1)
 
 
 @closed
 def test_valences_are_those_promised(name: str) -> None:
-    assert Counter(shapes.SHAPES[name]().topology.valence.tolist()) == VALENCES[name]
+    assert Counter(shapes.SHAPES[name]().surface.valence.tolist()) == VALENCES[name]
 
 
 @closed
 def test_closed_meshes_have_no_boundary_and_the_euler_number_of_their_genus(name: str) -> None:
-    t = shapes.SHAPES[name]().topology
+    t = shapes.SHAPES[name]().surface
     assert not t.boundary.any()
     assert t.euler == EULER[name]
 
@@ -125,8 +125,8 @@ def test_faces_are_counter_clockwise_from_outside_at_every_level(name: str) -> N
 @everything
 def test_open_meshes_look_up(make: Callable[[], Mesh]) -> None:
     mesh = make()
-    if isinstance(mesh.topology, Topology) and mesh.topology.boundary.any():
-        for loop in mesh.topology.loops():
+    if isinstance(mesh.topology, Topology) and mesh.surface.boundary.any():
+        for loop in mesh.surface.loops():
             a, b, c = mesh.points[loop[:3]]
             assert np.cross(b - a, c - a)[2] > 0
 
@@ -171,7 +171,7 @@ def test_cube_vertices_are_numbered_in_binary() -> None:
 @valences
 def test_a_quad_fan_has_one_vertex_of_valence_n(n: int) -> None:
     for rings in (1, 2, 3):
-        t = shapes.quad_fan(n, rings).topology
+        t = shapes.quad_fan(n, rings).surface
         assert counts(t) == (1 + n * rings * (rings + 1), n * rings * (2 * rings + 1), n * rings**2)
         inner = t.valence[~t.on_boundary]
         assert inner[0] == n
@@ -183,7 +183,7 @@ def test_a_quad_fan_has_one_vertex_of_valence_n(n: int) -> None:
 @valences
 def test_a_triangle_fan_has_one_vertex_of_valence_n(n: int) -> None:
     for rings in (1, 2, 3):
-        t = shapes.triangle_fan(n, rings).topology
+        t = shapes.triangle_fan(n, rings).surface
         assert counts(t) == (1 + n * rings * (rings + 1) // 2, n * rings * (3 * rings + 1) // 2, n * rings**2)
         inner = t.valence[~t.on_boundary]
         assert inner[0] == n
@@ -195,30 +195,30 @@ def test_a_triangle_fan_has_one_vertex_of_valence_n(n: int) -> None:
 @pytest.mark.parametrize("fan", [shapes.quad_fan, shapes.triangle_fan])
 def test_a_further_ring_changes_no_number_of_the_inner_ones(fan: Callable[[int, int], Mesh]) -> None:
     for rings in (1, 2):
-        inner, outer = fan(5, rings).topology.loops(), fan(5, rings + 1).topology.loops()
+        inner, outer = fan(5, rings).surface.loops(), fan(5, rings + 1).surface.loops()
         assert outer[: len(inner)] == inner
 
 
 @valences
 def test_bipyramids_have_poles_of_valence_n(n: int) -> None:
-    t = shapes.bipyramid(n).topology
+    t = shapes.bipyramid(n).surface
     assert counts(t) == (n + 2, 3 * n, 2 * n)
     assert t.valence.tolist() == [4] * n + [n, n]
-    quads = shapes.quad_bipyramid(n).topology
+    quads = shapes.quad_bipyramid(n).surface
     assert counts(quads) == (6 * n + 2, 12 * n, 6 * n)
     assert quads.valence[[n, n + 1]].tolist() == [n, n]
 
 
 @pytest.mark.parametrize(("n", "m"), [(3, 3), (5, 4), (8, 5)])
 def test_tori_are_regular_everywhere(n: int, m: int) -> None:
-    assert counts(shapes.torus(n, m).topology) == (n * m, 2 * n * m, n * m)
-    assert counts(shapes.triangle_torus(n, m).topology) == (n * m, 3 * n * m, 2 * n * m)
-    assert not shapes.torus(n, m).topology.extraordinary.any()
-    assert not shapes.triangle_torus(n, m).topology.extraordinary.any()
+    assert counts(shapes.torus(n, m).surface) == (n * m, 2 * n * m, n * m)
+    assert counts(shapes.triangle_torus(n, m).surface) == (n * m, 3 * n * m, 2 * n * m)
+    assert not shapes.torus(n, m).surface.extraordinary.any()
+    assert not shapes.triangle_torus(n, m).surface.extraordinary.any()
 
 
 def test_the_middle_quad_has_all_its_faces() -> None:
-    t = shapes.face_and_ring().topology
+    t = shapes.face_and_ring().surface
     assert counts(t) == (16, 24, 9)
     assert sorted(t.loops()[0]) == [0, 1, 2, 3]
     assert not t.on_boundary[:4].any()
@@ -227,7 +227,7 @@ def test_the_middle_quad_has_all_its_faces() -> None:
 
 
 def test_the_middle_triangles_have_all_their_faces() -> None:
-    t = shapes.two_triangles_and_ring().topology
+    t = shapes.two_triangles_and_ring().surface
     assert counts(t) == (14, 29, 16)
     assert [sorted(loop) for loop in t.loops()[:2]] == [[0, 1, 2], [0, 2, 3]]
     assert not t.on_boundary[:4].any()
@@ -248,8 +248,9 @@ def test_nets_are_not_flat_and_have_no_accidental_symmetry() -> None:
 
 
 def test_nets_subdivide_at_the_size_that_just_makes_a_surface() -> None:
-    assert subdivide(shapes.net(4, 4), tensor_product(3, 3), 3).topology.shape == (11, 11)
-    assert subdivide(shapes.net(4, 4, diagonal=True), box_spline(THREE_DIRECTION_QUARTIC), 3).topology.shape == (11, 11)
+    assert subdivide(shapes.net(4, 4), tensor_product(3, 3), 3).topology == Grid(11, 11)
+    quartic = box_spline(THREE_DIRECTION_QUARTIC)
+    assert subdivide(shapes.net(4, 4, diagonal=True), quartic, 3).topology == Grid(11, 11, diagonal=True)
 
 
 @pytest.mark.parametrize("n", range(4, 9))
@@ -267,8 +268,8 @@ def test_the_duck_is_symmetric() -> None:
 
 def test_creases_of_the_pawn_wear_off_but_for_its_foot() -> None:
     pawn = shapes.pawn()
-    assert Counter(pawn.topology.edge_sharpness.tolist()) == {0: 136, 10: 8, 3: 16, 2: 8, 1: 8}
-    fine = subdivide(pawn, CATMULL_CLARK, 3).topology
+    assert Counter(pawn.surface.edge_sharpness.tolist()) == {0: 136, 10: 8, 3: 16, 2: 8, 1: 8}
+    fine = subdivide(pawn, CATMULL_CLARK, 3).surface
     assert Counter(fine.edge_sharpness[fine.edge_sharpness > 0].tolist()) == {10: 8 * 2**3}
 
 
