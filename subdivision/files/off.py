@@ -1,0 +1,92 @@
+"""OFF: counts, then vertices, then faces, one to a line; colours, normals and texture coordinates are passed over."""
+
+import re
+from collections.abc import Iterator
+from itertools import islice
+
+import numpy as np
+
+from subdivision.files.content import Content, require_known
+from subdivision.files.faults import Fault, quoted
+from subdivision.files.text import Row, coordinates, rows, text_lines, vertex_numbers, whole
+
+_KEYWORD = re.compile(rb"(ST)?C?N?(4?n?)OFF")
+
+
+def read(data: bytes) -> Content:
+    """What the file says.
+
+    Raises
+    ------
+    Fault
+    """
+    lines = text_lines(data)
+    body = rows(lines)
+    n_vertices, n_faces, line = _counts(body)
+    points, of_vertex = _vertices(islice(body, min(n_vertices, len(lines))))
+    words, sizes, of_face = _faces(islice(body, min(n_faces, len(lines))))
+    if len(of_vertex) + len(of_face) < n_vertices + n_faces:
+        raise Fault.at_line(
+            len(lines),
+            f"the file ends after {len(of_vertex)} of {n_vertices} vertices and {len(of_face)} of {n_faces} faces",
+            f"correct the counts in line {line}, or export the mesh again if it was cut short",
+        )
+    if extra := next(body, None):
+        raise Fault.at_line(
+            extra[0],
+            f"there is more than the {n_vertices} vertices and {n_faces} faces that line {line} counts",
+            "correct the counts or remove the rest",
+        )
+    found = coordinates(points, np.array(of_vertex, dtype=np.intp))
+    corners = vertex_numbers(words, sizes, of_face)
+    return require_known(Content(found, np.array(sizes, dtype=np.intp), corners, np.array(of_face, dtype=np.intp)))
+
+
+def _counts(body: Iterator[Row]) -> tuple[int, int, int]:
+    """How many vertices and faces, and the line that says so, which may be that of the keyword."""
+    line, words = next(body, (1, [b""]))
+    keyword = _KEYWORD.match(words[0])
+    if not keyword:
+        raise Fault.at_line(
+            line, f"it begins with {quoted(words[0])}, not 'OFF'", "choose an OFF file or its right suffix"
+        )
+    if keyword[2]:
+        raise Fault.at_line(line, f"{quoted(words[0])} has points that are not in space", "export it as plain OFF")
+    rest = [word for word in (words[0][keyword.end() :], *words[1:]) if word]
+    if rest[:1] == [b"BINARY"]:
+        raise Fault.at_line(line, "it is binary OFF", "export it as text, or as PLY")
+    line, words = (line, rest) if rest else next(body, (line, []))
+    if len(words) < 2:
+        raise Fault.at_line(line, "the counts of vertices and faces are missing", "write both in the line below 'OFF'")
+    return whole(words[0], "the number of vertices", line), whole(words[1], "the number of faces", line), line
+
+
+def _vertices(body: Iterator[Row]) -> tuple[list[bytes], list[int]]:
+    words_of_all: list[bytes] = []
+    lines: list[int] = []
+    for line, words in body:
+        if len(words) < 3:
+            raise Fault.at_line(
+                line, f"this vertex has {len(words)} of 3 coordinates", "write all three, or correct the counts"
+            )
+        words_of_all += words[:3]
+        lines.append(line)
+    return words_of_all, lines
+
+
+def _faces(body: Iterator[Row]) -> tuple[list[bytes], list[int], list[int]]:
+    corners: list[bytes] = []
+    sizes: list[int] = []
+    lines: list[int] = []
+    for line, words in body:
+        size = whole(words[0], "the number of this face's corners", line)
+        if len(words) <= size:
+            raise Fault.at_line(
+                line,
+                f"this face announces {size} corners and names {len(words) - 1}",
+                "name them all in this line, or correct the number",
+            )
+        corners += words[1 : size + 1]
+        sizes.append(size)
+        lines.append(line)
+    return corners, sizes, lines
