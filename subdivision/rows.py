@@ -159,3 +159,9 @@ class Grid:
 
 Connectivity: TypeAlias = Topology | Grid | Polyline
 """What a control object is connected by."""
+
+
+def shown_faces(t: Connectivity) -> tuple[Indices, Indices]:
+    """Sizes and corners, laid end to end, of the faces that are part of the surface."""
+    shown = ~t.hidden
+    return t.face_sizes[shown], t.origin[np.repeat(shown, t.face_sizes)]

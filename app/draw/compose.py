@@ -14,6 +14,7 @@ from lessons.script import Beat, Kind, Look, View
 from subdivision import Connectivity, Frame, Role, Stencil, Topology, Trace
 from subdivision.arrays import Floats, Mask
 from subdivision.exact import spelled_together
+from subdivision.rows import shown_faces
 
 MARKER = 0.036
 """Radius of an original point, relative to the radius of the control object."""
@@ -155,12 +156,8 @@ def _shown_helpers(frame: Frame) -> Mask:
 
 def _faces(frame: Frame, theme: Theme) -> tuple[Faces, ...]:
     t = frame.topology
-    if not t.n_faces:
-        return ()
-    corner_hidden = t.hidden[np.repeat(np.arange(t.n_faces), t.face_sizes)]
-    points = frame.points[: t.n_vertices]
-    shown = Faces(points, t.face_sizes[~t.hidden], t.origin[~corner_hidden], theme.surface)
-    return (shown,) if len(shown.sizes) else ()
+    sizes, corners = shown_faces(t)
+    return (Faces(frame.points[: t.n_vertices], sizes, corners, theme.surface),) if len(sizes) else ()
 
 
 def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:

@@ -14,6 +14,7 @@ from subdivision.arrays import Indices
 from subdivision.files.content import Content
 from subdivision.files.faults import Fault, quoted
 from subdivision.files.text import coordinates, number, rows, text_lines, vertex_numbers, whole
+from subdivision.rows import shown_faces
 from subdivision.topology import Topology
 from subdivision.trace import Mesh
 
@@ -162,8 +163,9 @@ def written(mesh: Mesh) -> Iterator[bytes]:
     for point in mesh.points.tolist():
         yield b"v %a %a %a\n" % tuple(point)
     t = mesh.topology
-    corners, end = [b" %d" % (v + 1) for v in t.origin.tolist()], 0
-    for size in t.face_sizes.tolist():
+    sizes, flat = shown_faces(t)
+    corners, end = [b" %d" % (v + 1) for v in flat.tolist()], 0
+    for size in sizes.tolist():
         yield b"f" + b"".join(corners[end : end + size]) + b"\n"
         end += size
     if isinstance(t, Topology):

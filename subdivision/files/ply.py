@@ -12,6 +12,7 @@ from subdivision.files.content import Content, require_known
 from subdivision.files.faults import Fault
 from subdivision.files.ply_body import Wanted, binary_content, text_content
 from subdivision.files.ply_header import Element, Header, Property, header_of
+from subdivision.rows import shown_faces
 from subdivision.trace import Mesh
 
 
@@ -56,7 +57,7 @@ def _loop(face: Element | None, header: Header) -> Property:
 
 def written(mesh: Mesh) -> Iterator[bytes]:
     """The file in pieces: header, vertices, faces."""
-    sizes, corners = mesh.topology.face_sizes, mesh.topology.origin
+    sizes, corners = shown_faces(mesh.topology)
     count, width = ("uchar", 1) if sizes.max() < 256 else ("uint", 4)
     lines = (
         "ply", "format binary_little_endian 1.0",
