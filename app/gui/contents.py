@@ -1,0 +1,199 @@
+"""The lessons, section by section, with a box to search them."""
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
+from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent, QPainter, QStandardItem, QStandardItemModel
+from PySide6.QtWidgets import QLineEdit, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QVBoxLayout, QWidget
+
+from app.draw.theme import THEMES
+from app.gui.look import GRID, chosen_of, colour, icon, tint_of, type_face
+from app.gui.session import Session
+from app.state import State, open_lesson
+from lessons.script import Lesson
+
+LESSON = Qt.ItemDataRole.UserRole + 1
+OPENED = "Opened"
+
+
+class Contents(QWidget):
+    """Arrow keys choose, Enter or a click opens; the search box filters as one types."""
+
+    def __init__(self, session: Session, lessons: Iterable[Lesson]) -> None:
+        super().__init__()
+        self._session = session
+        self._shown: State | None = None
+        self.search = QLineEdit(placeholderText="Search   Ctrl+K", clearButtonEnabled=True)
+        self.search.setAccessibleName("Search the lessons")
+        self.search.textChanged.connect(self._filter)
+        self.search.returnPressed.connect(self._open_first)
+        self._model = QStandardItemModel(self)
+        self.list = _List()
+        self.list.setModel(self._model)
+        self.list.setItemDelegate(_Painter(session, self.list))
+        self.list.activated.connect(self._open)
+        self.list.clicked.connect(self._open)
+        self.search.installEventFilter(self)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(GRID, GRID, GRID, 0)
+        column.setSpacing(GRID)
+        column.addWidget(self.search)
+        column.addWidget(self.list, 1)
+        self._lessons = list(lessons)
+        self._fill()
+
+    def show_state(self, state: State) -> None:
+        if state.lesson not in self._lessons:
+            self._lessons.append(state.lesson)
+            self._fill()
+        if self._shown is None or self._shown.lesson is not state.lesson:
+            self.list.setCurrentIndex(self._index_of(state.lesson))
+        if self._shown is None or self._shown.options.theme != state.options.theme:
+            self._dress(state.options.theme)
+        self._shown = state
+        self.list.viewport().update()
+
+    def _dress(self, theme: str) -> None:
+        for action in self.search.actions():
+            self.search.removeAction(action)
+        self.search.addAction(icon("search", theme), QLineEdit.ActionPosition.LeadingPosition)
+
+    def _fill(self) -> None:
+        self._model.clear()
+        section = ""
+        for each in sorted(self._lessons, key=lambda lesson: (lesson.section == OPENED, lesson.section)):
+            if each.section != section:
+                section = each.section
+                heading = QStandardItem(section)
+                heading.setFlags(Qt.ItemFlag.NoItemFlags)
+                self._model.appendRow(heading)
+            row = QStandardItem(each.title)
+            row.setEditable(False)
+            row.setToolTip(each.title)
+            row.setData(each, LESSON)
+            self._model.appendRow(row)
+        self._filter(self.search.text())
+
+    def _filter(self, text: str) -> None:
+        """Hide what does not hold every word typed, and headings of nothing."""
+        words = text.lower().split()
+        heading, has_any = -1, False
+        for k in range(self._model.rowCount()):
+            lesson = self._model.item(k).data(LESSON)
+            if lesson is None:
+                if heading >= 0:
+                    self.list.setRowHidden(heading, not has_any)
+                heading, has_any = k, False
+                continue
+            hit = all(w in f"{lesson.title} {lesson.section} {lesson.id}".lower() for w in words)
+            self.list.setRowHidden(k, not hit)
+            has_any = has_any or hit
+        if heading >= 0:
+            self.list.setRowHidden(heading, not has_any)
+        self.list.empty = "No lesson has these words in its title." if self._first_visible() is None else ""
+        self.list.viewport().update()
+
+    def _first_visible(self) -> QModelIndex | None:
+        for k in range(self._model.rowCount()):
+            if self._model.item(k).data(LESSON) is not None and not self.list.isRowHidden(k):
+                return self._model.index(k, 0)
+        return None
+
+    def _index_of(self, lesson: Lesson) -> QModelIndex:
+        rows = (k for k in range(self._model.rowCount()) if self._model.item(k).data(LESSON) is lesson)
+        return self._model.index(next(rows, -1), 0)
+
+    def _open_first(self) -> None:
+        chosen = self.list.currentIndex()
+        if not chosen.isValid() or self.list.isRowHidden(chosen.row()):
+            chosen = self._first_visible() or QModelIndex()
+        self._open(chosen)
+
+    def _open(self, index: QModelIndex) -> None:
+        lesson = index.data(LESSON)
+        if lesson is not None and lesson is not self._session.state.lesson:
+            self._session.do(open_lesson, lesson)
+
+    def eventFilter(self, watched: object, event: object) -> bool:
+        """Up and Down in the search box go to the list."""
+        if isinstance(event, QKeyEvent) and event.type() == QKeyEvent.Type.KeyPress:
+            if event.key() in (Qt.Key.Key_Down, Qt.Key.Key_Up):
+                self.list.setFocus(Qt.FocusReason.TabFocusReason)
+                self.list.keyPressEvent(event)
+                return True
+        return False
+
+
+class _List(QListView):
+    """A quiet list with something to say when it is empty."""
+
+    opened = Signal(object)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.empty = ""
+        self.setAccessibleName("Lessons")
+        self.setMouseTracking(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setVerticalScrollMode(QListView.ScrollMode.ScrollPerPixel)
+
+    def paintEvent(self, event: object) -> None:
+        super().paintEvent(event)  # type: ignore[arg-type]
+        if self.empty:
+            painter = QPainter(self.viewport())
+            where = self.viewport().rect().adjusted(GRID, GRID, -GRID, 0)
+            painter.drawText(where, Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap, self.empty)
+            painter.end()
+
+
+class _Painter(QStyledItemDelegate):
+    """Headings in small capitals' weight; the open lesson with a bar before it."""
+
+    def __init__(self, session: Session, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._session = session
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
+        if index.data(LESSON) is None:
+            return QSize(10, 4 * GRID if index.row() else 3 * GRID)
+        return QSize(10, 4 * GRID)
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        state = self._session.state
+        theme = THEMES[state.options.theme]
+        box: QRect = option.rect  # type: ignore[attr-defined]
+        lesson = index.data(LESSON)
+        painter.save()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if lesson is None:
+            self._words(painter, str(index.data()), box.adjusted(GRID, 0, 0, -4), colour(theme.muted), 12, bottom=True)
+            painter.restore()
+            return
+        is_open = lesson is state.lesson
+        flags = option.state  # type: ignore[attr-defined]
+        if is_open or flags & QStyle.StateFlag.State_MouseOver:
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(colour(chosen_of(theme) if is_open else tint_of(theme)))
+            painter.drawRoundedRect(box.adjusted(0, 1, 0, -1), 6, 6)
+        if is_open:
+            painter.setBrush(colour(theme.accent))
+            painter.drawRoundedRect(QRect(box.left(), box.top() + 8, 3, box.height() - 16), 1.5, 1.5)
+        if flags & QStyle.StateFlag.State_HasFocus:
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(colour(theme.accent))
+            painter.drawRoundedRect(box.adjusted(1, 2, -1, -2), 6, 6)
+        self._words(painter, lesson.title, box.adjusted(GRID + 4, 0, -GRID, 0), colour(theme.ink), 14, bold=is_open)
+        painter.restore()
+
+    def _words(
+        self, painter: QPainter, text: str, box: QRect, ink: object, size: int, *, bold: bool = False, bottom: bool = False
+    ) -> None:
+        face = type_face(size, QFont.Weight.DemiBold if bold or bottom else QFont.Weight.Normal)
+        painter.setFont(face)
+        painter.setPen(ink)  # type: ignore[arg-type]
+        line = " ".join(text.split())
+        cut = QFontMetrics(face).elidedText(line, Qt.TextElideMode.ElideRight, box.width())
+        where = Qt.AlignmentFlag.AlignBottom if bottom else Qt.AlignmentFlag.AlignVCenter
+        painter.drawText(box, where | Qt.AlignmentFlag.AlignLeft, cut)

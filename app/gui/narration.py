@@ -1,0 +1,89 @@
+"""The caption and its formula, under the picture and large enough for the back row."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QWidget
+
+from app.draw.primitives import Text
+from app.draw.theme import THEMES
+from app.draw.type import measure, wrapped
+from app.gui.brush import type_
+from app.gui.look import GRID, colour
+from app.gui.session import Session
+from app.state import State, stops
+
+SMALL, LARGE = 1 / 34, 1 / 25
+"""Size of the caption relative to the window's height, at a desk and when presenting."""
+
+HINT = "Space or PageDown: next stage"
+
+
+class Narration(QWidget):
+    """What the beat says.  Its height is the tallest beat's, so that the picture does not jump within a lesson."""
+
+    def __init__(self, session: Session, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._session = session
+        self._said: tuple[object, ...] = ()
+
+    def show_state(self, state: State) -> None:
+        said = (state.now, state.options.theme, state.options.presenting, state.options.blank, self._hint(state))
+        if said != self._said:
+            self._said = said
+            self.setAccessibleName(f"{state.now.text} {state.now.formula}")
+            self.update()
+
+    def height_for(self, width: int, window_height: int) -> int:
+        """Room for every beat of the lesson, on the grid."""
+        state = self._session.state
+        size = self._size(state, window_height)
+        tall = max(_laid(b.text, b.formula, size, width)[1] for b in state.lesson.beats)
+        most = window_height // 3
+        return int(min(-(-(tall + 1.2 * size) // GRID) * GRID, most))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        state = self._session.state
+        if state.options.blank:
+            return
+        theme = THEMES[state.options.theme]
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(self.rect(), colour(theme.background))
+        size = self._size(state, self.window().height())
+        lines, tall = _laid(state.now.text, state.now.formula, size, self.width())
+        top = 0.3 * size + max(self.height() - 1.2 * size - tall, 0) / 2
+        for text, x, y, align in lines:
+            type_(painter, Text(self.width() / 2 + x, top + y, text, size, theme.ink, align))
+        if hint := self._hint(state):
+            small = 0.62 * size
+            type_(painter, Text(self.width() / 2, self.height() - 0.55 * small, hint, small, theme.muted, "center"))
+        painter.end()
+
+    def _hint(self, state: State) -> str:
+        """What to do first, until it has been done."""
+        first = stops(state.lesson)[0]
+        return HINT if (state.beat, state.at) == (first.beat, first.at) and not state.is_playing else ""
+
+    def _size(self, state: State, window_height: int) -> float:
+        part = LARGE if state.options.presenting else SMALL
+        return max(window_height * part, 19.0) * THEMES[state.options.theme].type
+
+
+def _laid(text: str, formula: str, size: float, width: float) -> tuple[list[tuple[str, float, float, str]], float]:
+    """Type as (text, x from the middle, baseline, alignment), and the height it takes."""
+    room = min(0.94 * width, 44 * size)
+    rows = wrapped(text, size, room)
+    found = [(row, 0.0, (0.98 + 1.32 * k) * size, "center") for k, row in enumerate(rows)]
+    tall = 1.32 * size * len(rows)
+    if not formula:
+        return found, tall
+    wide, ascent, descent = measure(formula, size)
+    words = measure(rows[0], size)[0] if rows else 0.0
+    if len(rows) == 1 and words + 1.6 * size + wide <= 0.94 * width:  # beside
+        left, base = -(words + 1.6 * size + wide) / 2, max(0.98 * size, ascent)
+        return [(rows[0], left, base, "left"), (formula, left + words + 1.6 * size, base, "left")], max(
+            tall, ascent + descent + 0.1 * size
+        )
+    return [*found, (formula, 0.0, tall + ascent + 0.1 * size, "center")], tall + ascent + descent + 0.1 * size
+

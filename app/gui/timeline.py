@@ -1,0 +1,187 @@
+"""The way through the lesson: a segment for every stage, a taller tick where a level ends, buttons before and behind."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QToolTip, QWidget
+
+from app.draw.theme import THEMES
+from app.gui.look import GRID, colour, icon, line_of, mixed, type_face
+from app.gui.session import Session
+from app.state import Segment, State, axis_of, choose, seek, segments
+
+HEIGHT = 7 * GRID
+SNAP = 6.0
+"""Pixels: so near to a stage's end, scrubbing is at it."""
+
+SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
+
+Make = Callable[[str], QToolButton]
+"""Makes the button of a command."""
+
+
+class Timeline(QWidget):
+    """Buttons and track in one row."""
+
+    def __init__(self, session: Session, button: Make) -> None:
+        super().__init__()
+        self.setFixedHeight(HEIGHT)
+        self._track = Track(session)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(GRID, 0, GRID, 0)
+        row.setSpacing(0)
+        for name in ("first", "back", "play", "forward", "last"):
+            row.addWidget(button(name))
+        row.addSpacing(GRID)
+        row.addWidget(self._track, 1)
+        row.addSpacing(GRID)
+        for name in ("level_down", "level_up", "through"):
+            row.addWidget(button(name))
+        self._speed = QToolButton(toolTip="Speed: slower −, faster +", accessibleName="Speed")
+        self._speed.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self._speed.setMinimumSize(QSize(48, 32))
+        self._speed.clicked.connect(lambda: session.do(choose, speed=next_speed(session.state.options.speed)))
+        row.addWidget(self._speed)
+
+    def show_state(self, state: State) -> None:
+        self._speed.setText(spoken_speed(state.options.speed))
+        self._track.show_state(state)
+
+
+class Track(QWidget):
+    """The segments; the mouse scrubs."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAccessibleName("Timeline")
+        self._is_held = False
+
+    def show_state(self, state: State) -> None:
+        here = current(state)
+        self.setAccessibleDescription(f"level {here.level}, {here.name or 'still'}: {state.now.text}")
+        self.update()
+
+    # -- place and time -------------------------------------------------------------------------
+
+    def _x(self, axis: float) -> float:
+        end = segments(self._session.state.lesson)[-1].end
+        return GRID + axis / end * (self.width() - 2 * GRID)
+
+    def _axis(self, x: float) -> float:
+        parts = segments(self._session.state.lesson)
+        axis = (x - GRID) / max(self.width() - 2 * GRID, 1) * parts[-1].end
+        near = min((e for s in parts for e in (s.begin, s.end)), key=lambda e: abs(e - axis))
+        return near if abs(self._x(near) - x) <= SNAP else axis
+
+    # -- the hand -------------------------------------------------------------------------------
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._is_held = True
+            self._session.let_go()
+            self._session.do(seek, self._axis(event.position().x()))
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._is_held:
+            self._session.do(seek, self._axis(event.position().x()))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        self._is_held = False
+        self._session.let_go()
+
+    def event(self, event: QEvent) -> bool:
+        if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip:
+            found = self._segment_at(event.position().x() if hasattr(event, "position") else event.pos().x())
+            words = self._session.state.lesson.beats[found.beat].text
+            QToolTip.showText(event.globalPos(), f"{found.name}: {words}" if found.name else words, self)
+            return True
+        return super().event(event)
+
+    def _segment_at(self, x: float) -> Segment:
+        parts = segments(self._session.state.lesson)
+        return next((s for s in parts if x <= self._x(s.end)), parts[-1])
+
+    # -- paint ----------------------------------------------------------------------------------
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        state = self._session.state
+        theme = THEMES[state.options.theme]
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        axis, middle = axis_of(state), self.height() / 2
+        parts, now = segments(state.lesson), current(state)
+        idle, done = mixed(theme.panel, theme.ink, 0.22), theme.accent
+        taken = -1e9
+        for s in parts:
+            left, right = self._x(s.begin), self._x(s.end)
+            self._bar(painter, left, right, middle, colour(idle))
+            if axis > s.begin:
+                self._bar(painter, left, min(right, self._x(axis)), middle, colour(done))
+            tall = 11.0 if s.ends_level else 6.0
+            painter.setPen(QPen(colour(theme.ink if s.ends_level else theme.muted), 1.6 if s.ends_level else 1.0))
+            painter.drawLine(QPointF(right, middle - tall), QPointF(right, middle + tall))
+            ink = colour(theme.ink if s is now else theme.muted)
+            self._name(painter, s, left, right, middle, ink, is_now=s is now)
+            if s.ends_level and right - taken > 26:
+                self._word(painter, f"×{s.level}", right, middle + 24, colour(theme.ink), 12)
+                taken = right
+        painter.setPen(QPen(colour(theme.panel), 2))
+        painter.setBrush(colour(theme.ink))
+        painter.drawEllipse(QPointF(self._x(axis), middle), 7, 7)
+        if self.hasFocus():
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(colour(theme.accent), 2))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 3, -1, -3), 6, 6)
+        painter.setPen(QPen(colour(line_of(theme)), 1))
+        painter.end()
+
+    def _bar(self, painter: QPainter, left: float, right: float, middle: float, ink: QColor) -> None:
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(ink)
+        painter.drawRect(QRectF(left, middle - 2, max(right - left, 0), 4))
+
+    def _name(
+        self, painter: QPainter, s: Segment, left: float, right: float, middle: float, ink: QColor, *, is_now: bool
+    ) -> None:
+        face = type_face(12, QFont.Weight.DemiBold if is_now else QFont.Weight.Normal)
+        if s.name and QFontMetricsF(face).horizontalAdvance(s.name) < right - left - 6:
+            painter.setFont(face)
+            painter.setPen(ink)
+            painter.drawText(QRectF(left, middle - 25, right - left, 16), Qt.AlignmentFlag.AlignCenter, s.name)
+
+    def _word(self, painter: QPainter, text: str, x: float, base: float, ink: QColor, size: int) -> None:
+        painter.setFont(type_face(size, QFont.Weight.DemiBold))
+        painter.setPen(ink)
+        painter.drawText(QRectF(x - 30, base - 13, 60, 16), Qt.AlignmentFlag.AlignCenter, text)
+
+
+def current(state: State) -> Segment:
+    """The segment the state stands in."""
+    axis = axis_of(state)
+    mine = [s for s in segments(state.lesson) if s.beat == state.beat]
+    return next((s for s in mine if axis <= s.end), mine[-1])
+
+
+def next_speed(speed: float, by: int = 1) -> float:
+    """The next of the speeds, round and round upwards, or held at an end downwards."""
+    k = min(range(len(SPEEDS)), key=lambda i: abs(SPEEDS[i] - speed)) + by
+    return SPEEDS[k % len(SPEEDS)]
+
+
+def spoken_speed(speed: float) -> str:
+    return f"{speed:g}×"
+
+
+def tool_button(icon_name: str, theme: str) -> QToolButton:
+    """A flat button that keeps the focus where it is unless it is reached with Tab."""
+    button = QToolButton()
+    button.setIcon(icon(icon_name, theme))
+    button.setIconSize(QSize(20, 20))
+    button.setMinimumSize(QSize(32, 32))
+    button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+    return button

@@ -1,0 +1,307 @@
+"""The picture in the window: panes in space painted by VTK, everything flat painted over them by Qt.
+
+It contains a ``QtInteractor`` and sees all its input first.  VTK gets none of it: the hand turns a
+``Turn``, a value, so no hot key can fire and all panes stay linked.
+"""
+
+from typing import Any
+
+import numpy as np
+from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent, QWheelEvent
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
+from PySide6.QtWidgets import QWidget
+
+from app.draw.compose import compose
+from app.draw.layout import fitted, overlay, pane_areas
+from app.draw.picture import Camera, Picture, Scene
+from app.draw.primitives import Area
+from app.gui.brush import paint
+from app.gui.look import colour
+from app.gui.narration import Narration
+from app.gui.session import Session
+from app.gui.turn import REST, Turn
+from app.state import State, look
+
+PANES = 4
+"""How many panes the viewport has renderers for."""
+
+REACH = 14.0
+"""How near to a marker the mouse must be to mean it, in pixels."""
+
+CALM = 160
+"""Milliseconds without change after which a software-drawn picture is smoothed."""
+
+SAMPLES = 8
+TRACK = 4.0
+"""Pixels: a press that moves less is a click."""
+
+
+class Viewport(QWidget):
+    """Shows ``compose(state)``; the mouse turns it and points at its points."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self.setAccessibleName("Picture")
+        self.setMinimumSize(320, 240)
+        self._session = session
+        self._state = session.state
+        self._picture: Picture = compose(session.state)
+        self._turn: Turn = REST
+        self._about: tuple[object, ...] = ()
+        self._press: QPointF | None = None
+        self._last = QPointF()
+        self._is_drag = self._is_pinned = False
+        self._plotter: Any = None
+        self._painters: list[Any] = []
+        self._is_soft = True
+        self._empty = QOpenGLWidget(self)  # makes the window one for OpenGL from the start, so that it never flickers
+        self._flat = _Flat(self)
+        self.narration = Narration(session, self)
+        self._calm = QTimer(self, singleShot=True, interval=CALM)
+        self._calm.timeout.connect(self._smooth)
+
+    # -- life -----------------------------------------------------------------------------------
+
+    def start(self) -> None:
+        """Bring up VTK; slow, so it waits until the window has been painted."""
+        from pyvistaqt import QtInteractor
+
+        from app.draw.vtk import ScenePainter
+
+        self._plotter = QtInteractor(
+            self, auto_update=False, multi_samples=0, shape=(1, PANES), border=False, lighting="none"
+        )
+        self._plotter.setAcceptDrops(False)
+        self._plotter.setAccessibleName("Picture")
+        self._plotter.installEventFilter(self)
+        self._painters = [ScenePainter(self._plotter, (0, k)) for k in range(PANES)]
+        self._plotter.setGeometry(self.rect())
+        self._plotter.show()
+        self._plotter.lower()
+        self._empty.hide()
+        self._empty.deleteLater()
+        self.show_state(self._state)
+
+    @property
+    def has_started(self) -> bool:
+        return self._plotter is not None
+
+    def close_vtk(self) -> None:
+        """Give everything back, in the order VTK needs."""
+        self._calm.stop()
+        if self._plotter is not None:
+            self._plotter.removeEventFilter(self)
+            for each in self._painters:
+                each.close()
+            self._painters = []
+            self._plotter.close()
+            self._plotter = None
+
+    # -- showing --------------------------------------------------------------------------------
+
+    def show_state(self, state: State) -> None:
+        self._state = state
+        about = (state.lesson, state.now.look)
+        if about != self._about:
+            self._about, self._turn = about, REST
+        if state.focus is None:
+            self._is_pinned = False
+        self._picture = compose(state)
+        self.narration.show_state(state)
+        self._arrange()
+        self._paint_scenes()
+
+    def reset_camera(self) -> None:
+        """Stand where the lesson stands."""
+        self._turned(REST)
+
+    def areas(self) -> list[Area]:
+        """Where the panes are, in pixels of this widget."""
+        return pane_areas(self._picture, self.width(), self._tall(), words=False)
+
+    def cameras(self) -> list[Camera | None]:
+        """From where each pane is seen now."""
+        return [
+            self._turn.of(fitted(pane.content.camera, area)) if isinstance(pane.content, Scene) else None
+            for pane, area in zip(self._picture.panes, self.areas(), strict=True)
+        ]
+
+    def paint_flat(self, painter: QPainter) -> None:
+        """Everything of the picture that is not in space."""
+        size = self.width(), self._tall()
+        paint(painter, overlay(self._picture, *size, cameras=self.cameras(), words=False))
+        if self._state.options.blank:
+            painter.fillRect(self.rect(), Qt.GlobalColor.black)
+
+    def _tall(self) -> float:
+        return float(max(self.height() - self.narration.height(), 1))
+
+    def _arrange(self) -> None:
+        tall = self.narration.height_for(self.width(), self.window().height())
+        self.narration.setGeometry(0, self.height() - tall, self.width(), tall)
+        self._flat.setGeometry(self.rect())
+        (self._plotter or self._empty).setGeometry(self.rect())
+
+    def _paint_scenes(self) -> None:
+        if self._plotter is None:
+            return
+        self._plotter.set_background(self._picture.background)
+        width, height = self.width(), self.height()
+        panes = zip(self._picture.panes, self.areas(), self.cameras(), strict=True)
+        shown = [(pane.content, area, camera) for pane, area, camera in panes if camera is not None]
+        for painter, (content, area, camera) in zip(self._painters, shown, strict=False):
+            painter.paint(content, self._tall() * self.devicePixelRatioF(), self._picture.stroke)
+            painter.background(self._picture.background)
+            painter.place(area, width, height)
+            painter.look(camera)
+            painter.clip(content)
+        for painter in self._painters[len(shown) :]:
+            painter.hide()
+        self._redraw()
+
+    def _turned(self, turn: Turn) -> None:
+        self._turn = turn
+        scenes = [(p.content, c) for p, c in zip(self._picture.panes, self.cameras(), strict=True) if c is not None]
+        for painter, (content, camera) in zip(self._painters, scenes, strict=False):
+            painter.look(camera)
+            painter.clip(content)
+        self._redraw()
+
+    def _redraw(self) -> None:
+        """One redraw; without smoothing while things change, where a picture takes long."""
+        if self._plotter is not None:
+            if self._is_soft:
+                self._plotter.render_window.SetMultiSamples(0)
+                self._calm.start()
+            self._plotter.update()
+        self._flat.update()
+
+    def _smooth(self) -> None:
+        if self._plotter is not None and not self._state.is_playing and not self._is_drag:
+            self._is_soft = _is_software(self._plotter.render_window)
+            self._plotter.render_window.SetMultiSamples(SAMPLES // 2 if self._is_soft else SAMPLES)
+            self._plotter.update()
+
+    # -- the hand -------------------------------------------------------------------------------
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """All input of the VTK widget: ours, or nobody's."""
+        kind = event.type()
+        if isinstance(event, QKeyEvent):
+            event.ignore()
+            return kind != QEvent.Type.ShortcutOverride
+        if isinstance(event, QWheelEvent):
+            self._wheel(event)
+            return True
+        if isinstance(event, QMouseEvent):
+            handle = {
+                QEvent.Type.MouseButtonPress: self._pressed,
+                QEvent.Type.MouseMove: self._moved,
+                QEvent.Type.MouseButtonRelease: self._released,
+                QEvent.Type.MouseButtonDblClick: self._double_clicked,
+            }.get(kind)
+            if handle is not None:
+                handle(event)
+            return True
+        if kind == QEvent.Type.Leave and not self._is_pinned:
+            self._session.do(look, None)
+        return kind in (QEvent.Type.Enter, QEvent.Type.Leave, QEvent.Type.Gesture)
+
+    def _pressed(self, event: QMouseEvent) -> None:
+        self._press = self._last = event.position()
+        self._is_drag = False
+        self._plotter.setFocus(Qt.FocusReason.MouseFocusReason)
+
+    def _moved(self, event: QMouseEvent) -> None:
+        here = event.position()
+        if self._press is None:
+            if not self._is_pinned:
+                self._session.do(look, self.point_at(here))
+            return
+        self._is_drag = self._is_drag or (here - self._press).manhattanLength() > TRACK
+        if self._is_drag:
+            step = (here - self._last) / self._pane(self._press)[1][3]
+            self._turned(self._dragged(event)(step.x(), step.y()))
+            self._last = here
+
+    def _dragged(self, event: QMouseEvent) -> Any:
+        """Rotating or panning, by what is under the hand, the button and the shift key."""
+        content = self._picture.panes[self._pane(self._press)[0]].content
+        is_flat = not isinstance(content, Scene) or content.camera.scale > 0
+        is_left = bool(event.buttons() & Qt.MouseButton.LeftButton)
+        shifted = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        return self._turn.panned if is_flat or shifted or not is_left else self._turn.rotated
+
+    def _released(self, event: QMouseEvent) -> None:
+        if self._press is not None and not self._is_drag and event.button() == Qt.MouseButton.LeftButton:
+            point = self.point_at(event.position())
+            self._is_pinned = point is not None
+            self._session.do(look, point)
+        self._press, self._is_drag = None, False
+        self._calm.start()
+
+    def _double_clicked(self, event: QMouseEvent) -> None:
+        if self.point_at(event.position()) is None:
+            self.reset_camera()
+
+    def _wheel(self, event: QWheelEvent) -> None:
+        _, (x, y, w, h) = self._pane(event.position())
+        here = event.position()
+        factor = 1.0015 ** (event.angleDelta().y() or event.pixelDelta().y() * 4)
+        self._turned(self._turn.zoomed(factor, (here.x() - x - w / 2) / h, (here.y() - y - h / 2) / h))
+
+    def _pane(self, at: QPointF | None) -> tuple[int, Area]:
+        """The pane under the mouse, else the first."""
+        areas = self.areas()
+        for k, (x, y, w, h) in enumerate(areas):
+            if at is not None and x <= at.x() < x + w and y <= at.y() < y + h:
+                return k, (x, y, w, h)
+        return 0, areas[0]
+
+    def point_at(self, at: QPointF) -> int | None:
+        """The point of the leading pane that is nearest to a place on the screen, if it is near; in front first."""
+        pane, area, camera = self._picture.panes[0], self.areas()[0], self.cameras()[0]
+        if camera is None or not isinstance(pane.content, Scene) or self._state.is_playing:
+            return None
+        found = [(m.points, m.ids) for m in pane.content.markers if (m.ids >= 0).any()]
+        if not found:
+            return None
+        points, ids = (np.concatenate(each) for each in zip(*found, strict=True))
+        flat = camera.project(points, area[2], area[3]) + [area[0] - at.x(), area[1] - at.y(), 0.0]
+        apart = np.where(ids >= 0, np.hypot(flat[:, 0], flat[:, 1]), np.inf)
+        near = np.flatnonzero(apart < REACH)
+        if not near.size:
+            return None
+        clear = near[apart[near] < apart[near].min() + 4]
+        return int(ids[clear[np.argmin(flat[clear, 2])]])
+
+    # -- Qt's own -------------------------------------------------------------------------------
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._arrange()
+        self._paint_scenes()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        QPainter(self).fillRect(self.rect(), colour(self._picture.background))
+
+
+class _Flat(QWidget):
+    """The transparent sheet over the panes; the mouse goes through it."""
+
+    def __init__(self, viewport: Viewport) -> None:
+        super().__init__(viewport)
+        self._viewport = viewport
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        self._viewport.paint_flat(painter)
+        painter.end()
+
+
+def _is_software(render_window: Any) -> bool:
+    """Whether the processor draws, slowly, and no graphics card."""
+    report = render_window.ReportCapabilities().lower()
+    return any(name in report for name in ("llvmpipe", "softpipe", "swrast", "swiftshader", "software"))
