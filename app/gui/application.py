@@ -1,0 +1,200 @@
+"""Brings up the process in the order Qt and VTK need, and sees to it that no traceback reaches the user."""
+
+import ctypes
+import logging
+import os
+import signal
+import sys
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
+from types import TracebackType
+
+os.environ["QT_API"] = "pyside6"  # before pyvistaqt asks
+
+from PySide6.QtCore import (
+    QMessageLogContext,
+    QSettings,
+    QStandardPaths,
+    Qt,
+    QTimer,
+    QtMsgType,
+    qInstallMessageHandler,
+)
+from PySide6.QtGui import QOffscreenSurface, QOpenGLContext, QSurfaceFormat
+from PySide6.QtWidgets import QApplication
+
+from app.draw.theme import THEMES
+from app.gui import look
+from app.gui.session import Session
+from app.gui.window import NAME, Window, system_theme
+from app.state import Options, State, open_lesson, start
+from lessons import all_lessons, find
+from lessons.script import Lesson
+
+LOG = logging.getLogger("studio")
+
+NO_SCREEN = (
+    "there is no screen to open the window on (DISPLAY and WAYLAND_DISPLAY lead nowhere). "
+    "'subdivision-studio figures' draws the lessons to files without one."
+)
+NO_OPENGL = (
+    "the window needs OpenGL 3.2, and this screen does not offer it. Update the graphics driver, or install Mesa "
+    "(Debian: sudo apt-get install libgl1-mesa-dri)."
+)
+BUG = "Something went wrong inside the program. Your lesson is still open; the details are in {log}."
+
+
+def run(lesson_id: str | None = None, step: int | None = None) -> int:
+    """Open the window at a lesson and a step (from 1), and stay until it is closed; the exit status."""
+    if not has_screen():
+        return _refuse(NO_SCREEN)
+    app = application()
+    if not has_opengl():
+        return _refuse(NO_OPENGL)
+    log = keep_log()
+    settings = settings_file()
+    window = Window(Session(first_state(lesson_id, step, settings)), settings)
+    catch_everything(window, log)
+    window.show()
+    QTimer.singleShot(0, window.viewport.start)
+    signal.signal(signal.SIGINT, lambda *_: window.close())
+    pulse = QTimer(interval=200)  # lets Python see Ctrl-C
+    pulse.timeout.connect(lambda: None)
+    pulse.start()
+    return int(app.exec())
+
+
+def application() -> QApplication:
+    """The one application, in the house style."""
+    existing = QApplication.instance()
+    if isinstance(existing, QApplication):
+        return existing
+    prepare()
+    app = QApplication(sys.argv[:1])
+    app.setApplicationName(NAME)
+    app.setOrganizationName("Subdivision Studio")
+    app.setDesktopFileName("subdivision-studio")
+    app.setStyle("Fusion")
+    app.setWindowIcon(look.studio_icon())
+    look.load_fonts()
+    return app
+
+
+def prepare() -> None:
+    """What must be said before there is an application: how OpenGL is to be."""
+    wanted = QSurfaceFormat()
+    wanted.setRenderableType(QSurfaceFormat.RenderableType.OpenGL)
+    wanted.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
+    wanted.setVersion(3, 2)
+    wanted.setSwapBehavior(QSurfaceFormat.SwapBehavior.DoubleBuffer)
+    wanted.setDepthBufferSize(8)
+    wanted.setAlphaBufferSize(8)
+    wanted.setStencilBufferSize(0)
+    wanted.setSamples(0)  # VTK smooths in buffers of its own
+    QSurfaceFormat.setDefaultFormat(wanted)
+    QApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
+
+
+def first_state(lesson_id: str | None, step: int | None, settings: QSettings) -> State:
+    """Where the window opens."""
+    chosen = str(settings.value("theme", "light"))
+    theme = system_theme() if chosen == "system" else chosen
+    state = start(first_lesson(lesson_id), Options(theme=theme if theme in THEMES else "light"))
+    return open_lesson(state, state.lesson, step - 1) if step else state
+
+
+def first_lesson(lesson_id: str | None) -> Lesson:
+    """The one asked for; else the cube, if it is there."""
+    if lesson_id is not None:
+        return find(lesson_id)
+    return next((each for each in all_lessons() if each.id == "figure_14_cube"), all_lessons()[0])
+
+
+# -- screens ----------------------------------------------------------------------------------
+
+
+def has_screen() -> bool:
+    """Whether Qt would find a screen: where it finds none it aborts the process, so it is not let try."""
+    if os.environ.get("QT_QPA_PLATFORM", "xcb").split(":")[0].split(";")[0] not in ("xcb", "wayland", "wayland-egl"):
+        return True
+    if not sys.platform.startswith("linux"):
+        return True
+    return _has_wayland() or _has_x11()
+
+
+def _has_wayland() -> bool:
+    name = os.environ.get("WAYLAND_DISPLAY")
+    return bool(name) and (Path(os.environ.get("XDG_RUNTIME_DIR", "/")) / str(name)).exists()
+
+
+def _has_x11() -> bool:
+    if not os.environ.get("DISPLAY"):
+        return False
+    try:
+        xcb = ctypes.CDLL("libxcb.so.1")
+    except OSError:
+        return True
+    xcb.xcb_connect.restype = ctypes.c_void_p
+    connection = ctypes.c_void_p(xcb.xcb_connect(None, None))
+    failed = bool(xcb.xcb_connection_has_error(connection))
+    xcb.xcb_disconnect(connection)
+    return not failed
+
+
+def has_opengl() -> bool:
+    """Whether the screen offers the OpenGL that VTK needs."""
+    context = QOpenGLContext()
+    surface = QOffscreenSurface()
+    surface.create()
+    if not context.create() or not context.makeCurrent(surface):
+        return False
+    version = context.format().version()
+    context.doneCurrent()
+    return tuple(version) >= (3, 2)
+
+
+def _refuse(sentence: str) -> int:
+    print(f"subdivision-studio: {sentence}", file=sys.stderr)
+    return 1
+
+
+# -- settings, log, faults --------------------------------------------------------------------
+
+
+def settings_file() -> QSettings:
+    return QSettings(QSettings.Format.IniFormat, QSettings.Scope.UserScope, "Subdivision Studio", "window")
+
+
+def keep_log() -> Path:
+    """Start the log, where the system keeps such things; it never grows beyond three megabytes."""
+    folder = Path(QStandardPaths.writableLocation(QStandardPaths.StandardLocation.AppDataLocation))
+    path = folder / "studio.log"
+    root = logging.getLogger()
+    root.setLevel(logging.INFO)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        handler: logging.Handler = RotatingFileHandler(path, maxBytes=1_000_000, backupCount=2, encoding="utf-8")
+    except OSError:  # a home that cannot be written to is no reason not to teach
+        handler = logging.NullHandler()
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
+    root.addHandler(handler)
+    return path
+
+
+def catch_everything(window: Window, log: Path) -> None:
+    """Faults become a sentence in the window and a traceback in the log."""
+
+    def caught(kind: type[BaseException], fault: BaseException, trace: TracebackType | None) -> None:
+        if issubclass(kind, KeyboardInterrupt):
+            window.close()
+            return
+        LOG.critical("uncaught", exc_info=(kind, fault, trace))
+        window.session.stop()
+        window.say(BUG.format(log=log))
+
+    def heard(kind: QtMsgType, context: QMessageLogContext, message: str) -> None:
+        bad = kind in (QtMsgType.QtWarningMsg, QtMsgType.QtCriticalMsg, QtMsgType.QtFatalMsg)
+        LOG.log(logging.WARNING if bad else logging.DEBUG, "Qt: %s", message)
+
+    sys.excepthook = caught
+    qInstallMessageHandler(heard)

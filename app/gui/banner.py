@@ -1,0 +1,83 @@
+"""A strip in the window for what went wrong or takes a while; it is never in the way of the keys."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QSizePolicy, QWidget
+
+from app.draw.theme import THEMES
+from app.gui.look import GRID, chosen_of, colour, mixed
+from app.gui.session import Session
+from app.gui.timeline import tool_button
+
+
+class Banner(QWidget):
+    """One message at a time, the newest."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self._is_fault = False
+        self.words = QLabel(wordWrap=True)
+        self.words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.words.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self._busy = QProgressBar(minimum=0, maximum=0, textVisible=False)
+        self._busy.setFixedWidth(96)
+        self._cancel = QPushButton("Cancel")
+        self._cancel.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self._cancel.clicked.connect(self._cancelled)
+        self._close = tool_button("close", session.state.options.theme)
+        self._close.setToolTip("Close this message (Esc)")
+        self._close.setAccessibleName("Close this message")
+        self._close.clicked.connect(self.hide)
+        self._on_cancel: Callable[[], None] = self.hide
+        row = QHBoxLayout(self)
+        row.setContentsMargins(2 * GRID, GRID, GRID, GRID)
+        row.setSpacing(2 * GRID)
+        for each in (self.words, self._busy, self._cancel, self._close):
+            row.addWidget(each)
+        self.hide()
+
+    def say(self, sentence: str) -> None:
+        """Something went wrong, or is worth knowing."""
+        self._set(sentence, is_fault=True, is_busy=False)
+
+    def tell(self, sentence: str) -> None:
+        """Something went well."""
+        self._set(sentence, is_fault=False, is_busy=False)
+
+    def wait(self, sentence: str, on_cancel: Callable[[], None]) -> None:
+        """Something takes a while."""
+        self._on_cancel = on_cancel
+        self._set(sentence, is_fault=False, is_busy=True)
+
+    def done(self) -> None:
+        """What took a while is over."""
+        if not self._busy.isHidden():
+            self.hide()
+
+    def _set(self, sentence: str, *, is_fault: bool, is_busy: bool) -> None:
+        from app.gui.look import icon
+
+        self._is_fault = is_fault
+        self.words.setText(sentence)
+        self.setAccessibleName(sentence)
+        self._close.setIcon(icon("close", self._session.state.options.theme))
+        self._busy.setVisible(is_busy)
+        self._cancel.setVisible(is_busy)
+        self._close.setVisible(not is_busy)
+        self.show()
+
+    def _cancelled(self) -> None:
+        self.hide()
+        self._on_cancel()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        theme = THEMES[self._session.state.options.theme]
+        vermilion = THEMES["light"].roles[2]  # type: ignore[index]
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), colour(mixed(theme.panel, vermilion, 0.16) if self._is_fault else chosen_of(theme)))
+        painter.fillRect(0, 0, 4, self.height(), colour(vermilion if self._is_fault else theme.accent))
+        painter.end()

@@ -1,0 +1,156 @@
+"""Every command of the window: one table for the menus, the keys and the sheet that lists the keys."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence
+from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QApplication, QLineEdit
+
+from app.gui.shown import SHOWN
+from app.gui.timeline import SPEEDS, next_speed, spoken_speed
+from app.state import Options, back, choose, first, forward, last, skip, toggle, toggle_play, turn_level
+
+if TYPE_CHECKING:
+    from app.gui.window import Window
+
+Does: TypeAlias = "Callable[[Window], None]"
+
+
+@dataclass(frozen=True)
+class Command:
+    """Something the user can do.
+
+    ``keys`` as Qt spells them; ``on`` tells whether a switch is on; ``icon`` names a file of ``assets/icons``.
+    """
+
+    id: str
+    name: str
+    group: str
+    keys: tuple[str, ...]
+    does: Does
+    on: Callable[[Options], bool] | None = None
+    icon: str = ""
+    repeats: bool = False
+
+
+def _wish(transition: Callable[..., object], *args: object, **options: object) -> Does:
+    return lambda w: w.session.do(transition, *args, **options)
+
+
+def _switch(option: str, name: str, key: str) -> Command:
+    return Command(option, name, "View", (key,), _wish(toggle, option), lambda o: bool(getattr(o, option)))
+
+
+def _theme(name: str) -> Command:
+    return Command(f"theme_{name}", name.capitalize(), "Theme", (), lambda w: w.choose_theme(name))
+
+
+def _speed(speed: float) -> Command:
+    return Command(f"speed_{speed:g}", spoken_speed(speed), "Speed", (), _wish(choose, speed=speed), lambda o: o.speed == speed)
+
+
+def _pace(by: int) -> Does:
+    return lambda w: w.session.do(choose, speed=held_speed(w.session.state.options.speed, by))
+
+
+def held_speed(speed: float, by: int) -> float:
+    """The next speed, or the same at either end."""
+    following = next_speed(speed, by)
+    return following if (following > speed) == (by > 0) else speed
+
+
+COMMANDS = (
+    Command("forward", "Next stage", "Lesson", ("PgDown", "Right"), _wish(forward), icon="forward", repeats=True),
+    Command("back", "Previous stage", "Lesson", ("PgUp", "Left"), _wish(back), icon="back", repeats=True),
+    Command("play", "Play or pause", "Lesson", ("Space",), _wish(toggle_play), icon="play"),
+    Command("level_up", "Next level", "Lesson", ("]", "Up"), _wish(turn_level, 1), icon="level-up"),
+    Command("level_down", "Previous level", "Lesson", ("[", "Down"), _wish(turn_level, -1), icon="level-down"),
+    Command("skip", "Next stage, without playing", "Lesson", ("Shift+PgDown", "Shift+Right"), _wish(skip, 1)),
+    Command("skip_back", "Previous stage, without playing", "Lesson", ("Shift+PgUp", "Shift+Left"), _wish(skip, -1)),
+    Command("first", "First stage", "Lesson", ("Home",), _wish(first), icon="first"),
+    Command("last", "Last stage", "Lesson", ("End",), _wish(last), icon="last"),
+    Command("through", "Play through stages", "Lesson", ("T",), _wish(toggle, "through"), lambda o: o.through, "through"),
+    Command("faster", "Faster", "Lesson", ("+",), _pace(1)),
+    Command("slower", "Slower", "Lesson", ("-",), _pace(-1)),
+    Command("search", "Find a lesson", "Lesson", ("Ctrl+K",), lambda w: w.find_lesson(), icon="search"),
+    Command("present", "Full screen", "Present", ("F5", "Shift+F5", "F11"), lambda w: w.toggle_presenting(),
+            lambda o: o.presenting, "present"),
+    Command("blank", "Blank the picture", "Present", (".", "B"), _wish(toggle, "blank"), lambda o: o.blank),
+    Command("escape", "Leave full screen, close what is open", "Present", ("Esc",), lambda w: w.escape()),
+    *(_switch(option, name, key) for option, name, key in SHOWN),
+    Command("contents", "Lessons panel", "View", ("F9",), lambda w: w.toggle_panel(0)),
+    Command("shown", "Details panel", "View", ("F10",), lambda w: w.toggle_panel(2)),
+    Command("camera", "Reset the view", "View", ("R",), lambda w: w.viewport.reset_camera()),
+    Command("open", "Open mesh…", "File", ("Ctrl+O",), lambda w: w.choose_file()),
+    Command("save", "Save picture as…", "File", ("Ctrl+S",), lambda w: w.save_picture()),
+    Command("copy", "Copy picture", "File", ("Ctrl+C",), lambda w: w.copy_picture()),
+    Command("quit", "Quit", "File", ("Ctrl+Q",), lambda w: w.quit()),
+    Command("undo", "Undo", "Edit", ("Ctrl+Z",), lambda w: w.session.undo(), repeats=True),
+    Command("redo", "Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), lambda w: w.session.redo(), repeats=True),
+    Command("keys", "Keys", "Help", ("?", "F1"), lambda w: w.toggle_keys()),
+    Command("about", "About Subdivision Studio", "Help", (), lambda w: w.toggle_about()),
+    *(_theme(name) for name in ("light", "dark", "projector", "system")),
+    *(_speed(speed) for speed in SPEEDS),
+)  # fmt: skip
+
+BY_ID = {c.id: c for c in COMMANDS}
+
+MOUSE = (
+    ("Turn", "drag"),
+    ("Move", "Shift + drag, right drag"),
+    ("Zoom", "wheel"),
+    ("Reset the view", "double click beside the points"),
+    ("Why is a point here?", "point at it; click to keep it"),
+)
+"""What the mouse does, for the sheet of keys."""
+
+
+def spelled_keys(command: Command) -> tuple[str, ...]:
+    """The keys as they are printed on keyboards."""
+    names = {"PgDown": "Page Down", "PgUp": "Page Up", "Left": "←", "Right": "→", "Up": "↑", "Down": "↓", "-": "−"}
+    return tuple("+".join(names.get(part, part) for part in _parts(key)) for key in command.keys)
+
+
+def _parts(key: str) -> list[str]:
+    return [key] if key in "+-" else key.split("+")
+
+
+class KeyGuard(QObject):
+    """Lets our keys through to their commands wherever the focus is.
+
+    Qt asks the focus widget first whether it wants a key for itself.  A search box keeps what it can
+    type, and its editing keys while there is something to edit; a list keeps Up and Down; a button
+    reached by Tab keeps Space.  All other keys of the table are nobody's but the table's.
+    """
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._ours = {QKeySequence(key).toString() for c in COMMANDS for key in c.keys}
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() != QEvent.Type.ShortcutOverride or not isinstance(event, QKeyEvent):
+            return False
+        if QApplication.activePopupWidget() or QApplication.activeModalWidget():
+            return False
+        kept = wants(QApplication.focusWidget(), event)
+        if kept is None:
+            return False
+        event.setAccepted(kept)
+        return kept or QKeySequence(event.keyCombination()).toString() in self._ours
+
+
+def wants(focus: object, event: QKeyEvent) -> bool | None:
+    """Whether the widget in focus keeps a key: yes, no, or as it says itself (None)."""
+    key, plain = event.key(), not event.modifiers() & ~(Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier)
+    if isinstance(focus, QLineEdit):
+        if focus.text() and key not in (Qt.Key.Key_PageDown, Qt.Key.Key_PageUp):
+            return None
+        is_typing = plain and event.text().isprintable() and event.text() != ""
+        return is_typing or key in (Qt.Key.Key_Up, Qt.Key.Key_Down)
+    if isinstance(focus, QAbstractItemView):
+        return plain and key in (Qt.Key.Key_Up, Qt.Key.Key_Down)
+    if isinstance(focus, QAbstractButton):
+        return plain and key == Qt.Key.Key_Space
+    return False

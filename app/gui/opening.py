@@ -1,0 +1,85 @@
+"""Reads a mesh file off the window's thread, and makes a lesson of it."""
+
+import logging
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
+
+from app.explore import explored
+from app.gui.banner import Banner
+from app.gui.session import Session
+from app.state import open_lesson
+from lessons.script import Lesson
+from subdivision import TopologyError
+from subdivision.files import FileError, read
+
+PATIENCE = 100
+"""Milliseconds before a wait is announced."""
+
+LOG = logging.getLogger(__name__)
+
+
+class Opener(QObject):
+    """One file at a time; a newer wish replaces an older one."""
+
+    def __init__(self, session: Session, banner: Banner) -> None:
+        super().__init__(session)
+        self._session, self._banner = session, banner
+        self._job: _Job | None = None
+        self._patience = QTimer(self, singleShot=True, interval=PATIENCE)
+        self._patience.timeout.connect(self._announce)
+
+    @property
+    def is_busy(self) -> bool:
+        return self._job is not None
+
+    def open(self, path: str) -> None:
+        self._forget()
+        self._job = _Job(Path(path))
+        self._job.told.done.connect(self._done)
+        self._job.told.failed.connect(self._failed)
+        self._patience.start()
+        QThreadPool.globalInstance().start(self._job)
+
+    def _announce(self) -> None:
+        if self._job is not None:
+            self._banner.wait(f"Reading {self._job.path.name} …", self._forget)
+
+    def _done(self, job: object, lesson: Lesson) -> None:
+        if job is self._job:
+            self._forget()
+            self._session.do(open_lesson, lesson)
+
+    def _failed(self, job: object, sentence: str) -> None:
+        if job is self._job:
+            self._forget()
+            self._banner.say(sentence)
+
+    def _forget(self) -> None:
+        """What is still being read is no longer wanted."""
+        self._patience.stop()
+        self._banner.done()
+        self._job = None
+
+
+class _Told(QObject):
+    done = Signal(object, object)
+    failed = Signal(object, str)
+
+
+class _Job(QRunnable):
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.setAutoDelete(False)
+        self.path, self.told = path, _Told()
+
+    def run(self) -> None:
+        try:
+            self.told.done.emit(self, explored(read(self.path), self.path.stem))
+        except (FileError, TopologyError) as fault:
+            self.told.failed.emit(self, str(fault))
+        except MemoryError:
+            self.told.failed.emit(self, f"{self.path.name} is too large for this computer's memory.")
+        except Exception:
+            LOG.exception("reading %s", self.path)
+            self.told.failed.emit(self, f"{self.path.name} could not be opened; the log has the details.")

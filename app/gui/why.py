@@ -1,0 +1,101 @@
+"""The panel 'Why is it here?': the exact weights of the point pointed at, and what the mesh counts."""
+
+from html import escape
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+
+from app.draw.compose import stencil_of
+from app.draw.theme import NAMES, THEMES
+from app.gui.look import GRID, colour, type_face
+from app.state import State, level_of
+from subdivision import Role, Stencil
+from subdivision.exact import spelled, spelled_together
+
+EMPTY = "Point at a vertex to see how it is made."
+FIRST = "A control point: it is given, not made."
+MOST = 12
+"""Parents of one weight that are listed by number."""
+
+
+class Why(QWidget):
+    """A sentence, the weights by size, and the counts of the level."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._words = QLabel(wordWrap=True, textFormat=Qt.TextFormat.RichText)
+        self._words.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._words.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._words.setMinimumHeight(20 * GRID)
+        self._counts = [(QLabel(), QLabel(name)) for name in ("V", "E", "F", "χ")]
+        self._level = QLabel()
+        self._about: tuple[object, ...] = ()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(GRID)
+        column.addWidget(self._words, 1)
+        column.addWidget(self._level)
+        grid = QGridLayout()
+        grid.setSpacing(0)
+        for k, (number, name) in enumerate(self._counts):
+            number.setFont(type_face(18))
+            grid.addWidget(name, 0, k)
+            grid.addWidget(number, 1, k)
+            grid.setColumnStretch(k, 1)
+        column.addLayout(grid)
+
+    def show_state(self, state: State) -> None:
+        view = state.now.lead
+        about = (state.lesson, state.beat, state.at, state.focus, state.options.theme, state.edits)
+        if about == self._about:
+            return
+        self._about = about
+        stencil, _ = stencil_of(state, view)
+        muted = colour(THEMES[state.options.theme].muted).name()
+        self._words.setText(_explained(state, stencil, muted))
+        topology = state.trace(view).topology_at(int(view.at(state.progress)))
+        euler = topology.euler if topology.n_faces else "–"
+        numbers = (topology.n_vertices, topology.n_edges, topology.n_faces or "–", euler)
+        for (number, name), value in zip(self._counts, numbers, strict=True):
+            number.setText(str(value).replace("-", "−"))
+            name.setStyleSheet(f"color: {muted}")
+        self._level.setText(f"Level {level_of(state)}")
+        self._level.setStyleSheet(f"color: {muted}")
+
+
+def _explained(state: State, stencil: Stencil | None, muted: str) -> str:
+    if stencil is None:
+        words = EMPTY if state.focus is None else FIRST
+        return f'<span style="color:{muted}">{words}</span>'
+    rows = [
+        f'<tr><td align="right" style="padding-right:12px"><b>{escape(weight)}</b></td>'
+        f'<td style="padding-right:12px; color:{muted}">×</td><td>{escape(points)}</td></tr>'
+        for weight, points in grouped(stencil)
+    ]
+    total = sum((w for _, w in stencil.terms), start=0 * stencil.terms[0][1])
+    return (
+        f"<p><b>{_named(state, stencil)}</b> is the sum of</p><table cellspacing='2'>{''.join(rows)}</table>"
+        f'<p style="color:{muted}">The weights sum to {escape(spelled(total))}.</p>'
+    )
+
+
+def grouped(stencil: Stencil) -> list[tuple[str, str]]:
+    """Each weight, and the points that have it."""
+    spelt = spelled_together([w for _, w in stencil.terms])
+    found: dict[str, list[int]] = {}
+    for weight, (parent, _) in zip(spelt, stencil.terms, strict=True):
+        found.setdefault(weight, []).append(parent)
+    return [(weight.replace("-", "−"), _listed(parents)) for weight, parents in found.items()]
+
+
+def _listed(parents: list[int]) -> str:
+    words = ", ".join(f"v{p}" for p in parents[:MOST])
+    return words if len(parents) <= MOST else f"{words} and {len(parents) - MOST} more"
+
+
+def _named(state: State, stencil: Stencil) -> str:
+    view = state.now.lead
+    roles = state.trace(view).roles_at(int(view.at(state.progress)))
+    role = f" ({NAMES[Role(int(roles[stencil.point]))]})" if stencil.point < len(roles) else ""
+    return f"v{stencil.point}{role}"

@@ -1,0 +1,409 @@
+"""The window: the picture in the middle, everything else round it."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QSettings, QSize, Qt, QTimer
+from PySide6.QtGui import (
+    QAction,
+    QActionGroup,
+    QCloseEvent,
+    QDragEnterEvent,
+    QDropEvent,
+    QGuiApplication,
+    QKeySequence,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import (
+    QApplication,
+    QFileDialog,
+    QLabel,
+    QMainWindow,
+    QMenu,
+    QScrollArea,
+    QSplitter,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+import lessons
+from app.draw.theme import THEMES
+from app.gui.banner import Banner
+from app.gui.contents import Contents
+from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
+from app.gui.look import GRID, colour, dress, icon, line_of
+from app.gui.opening import Opener
+from app.gui.session import Session
+from app.gui.sheets import About, Keys
+from app.gui.shown import SHOWN, Shown
+from app.gui.timeline import SPEEDS, Timeline, tool_button
+from app.gui.viewport import Viewport
+from app.gui.why import Why
+from app.state import State, choose, open_lesson
+from subdivision.files import READABLE
+
+NAME = "Subdivision Studio"
+LEFT, RIGHT = 208, 200
+"""Widths of the side panels."""
+
+NARROW = 1100
+"""Below this width the right panel waits behind its button."""
+
+MENUS = (
+    ("File", ("open", "", "save", "copy", "", "quit")),
+    ("Edit", ("undo", "redo")),
+    ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "", "camera", "contents", "shown")),
+    ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "through",
+                "@Speed", "", "search", "@Lessons")),
+    ("Present", ("present", "blank")),
+    ("Help", ("keys", "about")),
+)  # fmt: skip
+
+
+class Window(QMainWindow):
+    """Builds the parts, hands them every state, and does what is not a change of state."""
+
+    def __init__(self, session: Session, settings: QSettings) -> None:
+        super().__init__()
+        self.session, self.settings = session, settings
+        self.setWindowTitle(NAME)
+        self.setAcceptDrops(True)
+        self.setMinimumSize(720, 480)
+        self._theme = ""
+        self.actions_by_id = {c.id: self._action(c.id) for c in COMMANDS}
+        self.viewport = Viewport(session)
+        self.banner = Banner(session)
+        self.timeline = Timeline(session, self._button)
+        self.contents = Contents(session, lessons.all_lessons())
+        self.shown, self.why = Shown(session), Why()
+        self._build()
+        self.opener = Opener(session, self.banner)
+        self.sheets = (Keys(session, self._body), About(session, self._body))
+        self._guard = KeyGuard(self)
+        QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
+        self._views = (self.viewport, self.timeline, self.contents, self.shown, self.why)
+        self._restore()
+        session.changed.connect(self.show_state)
+        QGuiApplication.styleHints().colorSchemeChanged.connect(self._follow_system)
+        self.show_state(session.state)
+        self.viewport.setFocus()
+
+    # -- showing --------------------------------------------------------------------------------
+
+    def show_state(self, state: State) -> None:
+        if state.options.theme != self._theme:
+            self._dress(state.options.theme)
+        for view in self._views:
+            view.show_state(state)
+        for id_, action in self.actions_by_id.items():
+            if (on := BY_ID[id_].on) is not None:
+                action.setChecked(on(state.options))
+        self.actions_by_id["undo"].setEnabled(self.session.can_undo)
+        self.actions_by_id["redo"].setEnabled(self.session.can_redo)
+        self.actions_by_id["play"].setIcon(icon("pause" if state.is_playing else "play", state.options.theme))
+        if state.options.presenting != self._is_presenting:
+            self._present(state.options.presenting)
+
+    def _dress(self, theme: str) -> None:
+        self._theme = theme
+        dress(QApplication.instance(), THEMES[theme])  # type: ignore[arg-type]
+        for id_, action in self.actions_by_id.items():
+            if name := BY_ID[id_].icon:
+                action.setIcon(icon(name, theme))
+        line = colour(line_of(THEMES[theme])).name()
+        for hairline in self._hairlines:
+            hairline.setStyleSheet(f"background: {line}")
+
+    # -- commands -------------------------------------------------------------------------------
+
+    def escape(self) -> None:
+        """Close the topmost thing that is open."""
+        state = self.session.state
+        for open_ in (*self.sheets, self.banner):
+            if open_.isVisible():
+                open_.hide()
+                return
+        if state.options.blank:
+            self.session.do(choose, blank=False)
+        elif state.options.presenting:
+            self.toggle_presenting()
+        elif self.contents.search.hasFocus():
+            self.contents.search.clear()
+            self.viewport.setFocus()
+
+    def toggle_presenting(self) -> None:
+        is_on = not self.session.state.options.presenting
+        self.session.do(choose, presenting=is_on, blank=False)
+
+    def toggle_keys(self) -> None:
+        self.sheets[1].hide()
+        self.sheets[0].toggle()
+
+    def toggle_about(self) -> None:
+        self.sheets[0].hide()
+        self.sheets[1].toggle()
+
+    def toggle_panel(self, place: int) -> None:
+        """Show or hide the panel at a place of the splitter."""
+        panel = self._splitter.widget(place)
+        panel.setVisible(panel.isHidden())
+        if place == 2:
+            self._wants_details = not panel.isHidden()
+
+    def find_lesson(self) -> None:
+        self._splitter.widget(0).show()
+        self.contents.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
+        self.contents.search.selectAll()
+
+    def choose_theme(self, name: str) -> None:
+        """A theme, or the system's own from now on."""
+        self.settings.setValue("theme", name)
+        self.session.do(choose, theme=system_theme() if name == "system" else name)
+
+    def choose_file(self) -> None:
+        patterns = " ".join(f"*{suffix}" for suffix in READABLE)
+        path, _ = QFileDialog.getOpenFileName(self, "Open a mesh", self._folder("meshes"), f"Meshes ({patterns})")
+        if path:
+            self.settings.setValue("folder_meshes", str(Path(path).parent))
+            self.open_file(path)
+
+    def open_file(self, path: str) -> None:
+        """Read a mesh file and make a lesson of it; what is open stays until that has worked."""
+        self.opener.open(path)
+
+    def save_picture(self) -> None:
+        suggested = str(Path(self._folder("pictures")) / f"{self.session.state.lesson.id}.png")
+        path, _ = QFileDialog.getSaveFileName(self, "Save the picture", suggested, "Pictures (*.png)")
+        if path:
+            self.settings.setValue("folder_pictures", str(Path(path).parent))
+            self.save_picture_to(path)
+
+    def save_picture_to(self, path: str) -> None:
+        """Write what the viewport shows."""
+        target = path if Path(path).suffix else f"{path}.png"
+        if self.viewport.grab().save(target):
+            self.banner.tell(f"Saved {target}")
+        else:
+            self.banner.say(f"{target} could not be written; choose another folder or end the name in .png.")
+
+    def copy_picture(self) -> None:
+        QGuiApplication.clipboard().setPixmap(self.viewport.grab())
+        self.banner.tell("The picture is on the clipboard.")
+
+    def quit(self) -> None:
+        self.close()
+
+    def say(self, sentence: str) -> None:
+        """Tell of something that went wrong, where the user looks."""
+        self.banner.say(sentence)
+
+    def open_lesson(self, lesson: object) -> None:
+        if lesson is not self.session.state.lesson:
+            self.session.do(open_lesson, lesson)
+
+    # -- building -------------------------------------------------------------------------------
+
+    def _action(self, id_: str) -> QAction:
+        command = BY_ID[id_]
+        action = QAction(command.name, self)
+        action.setShortcuts([QKeySequence(key) for key in command.keys])
+        action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
+        action.setAutoRepeat(command.repeats)
+        action.setCheckable(command.on is not None)
+        keys = ", ".join(spelled_keys(command))
+        action.setToolTip(f"{command.name} ({keys})" if keys else command.name)
+        action.triggered.connect(lambda: command.does(self))
+        self.addAction(action)
+        return action
+
+    def _button(self, id_: str) -> QToolButton:
+        button = tool_button(BY_ID[id_].icon, self.session.state.options.theme)
+        button.setDefaultAction(self.actions_by_id[id_])
+        button.setAccessibleName(BY_ID[id_].name)
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        return button
+
+    def _build(self) -> None:
+        self._is_presenting, self._wants_details = False, True
+        self._hairlines: list[QWidget] = []
+        middle = _column(self.banner, self.viewport, self._hairline(), self.timeline)
+        middle.layout().setStretchFactor(self.viewport, 1)  # type: ignore[attr-defined]
+        self._splitter = QSplitter(Qt.Orientation.Horizontal)
+        self._splitter.setHandleWidth(1)
+        for part in (self.contents, middle, self._details()):
+            self._splitter.addWidget(part)
+        self._splitter.setStretchFactor(1, 1)
+        self._splitter.setCollapsible(1, False)
+        self._splitter.setSizes([LEFT, 10_000, RIGHT])
+        self._body = _column(self._hairline(), self._splitter)
+        self.setCentralWidget(self._body)
+        for name, ids in MENUS:
+            self._menu(self.menuBar().addMenu(name), ids)
+
+    def _details(self) -> QWidget:
+        inside = _column(_heading("Shown"), self.shown, _gap(2 * GRID), _heading("Why is it here?"), self.why)
+        inside.layout().setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)  # type: ignore[union-attr]
+        inside.layout().setStretchFactor(self.why, 1)  # type: ignore[attr-defined]
+        scroll = QScrollArea(widgetResizable=True)
+        scroll.setWidget(inside)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setMinimumWidth(184)
+        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        return scroll
+
+    def _hairline(self) -> QWidget:
+        line = QWidget()
+        line.setFixedHeight(1)
+        self._hairlines.append(line)
+        return line
+
+    def _menu(self, menu: QMenu, ids: tuple[str, ...]) -> None:
+        for id_ in ids:
+            if not id_:
+                menu.addSeparator()
+            elif id_.startswith("@"):
+                self._submenu(menu.addMenu(id_[1:]))
+            else:
+                menu.addAction(self.actions_by_id[id_])
+
+    def _submenu(self, menu: QMenu) -> None:
+        if menu.title() == "Lessons":
+            menu.aboutToShow.connect(lambda: self._list_lessons(menu))
+            return
+        ids = [f"speed_{s:g}" for s in SPEEDS] if menu.title() == "Speed" else [f"theme_{t}" for t in (*THEMES, "system")]
+        for id_ in ids:
+            menu.addAction(self.actions_by_id[id_])
+        if menu.title() == "Theme":
+            self._themes = QActionGroup(self)
+            for id_ in ids:
+                self.actions_by_id[id_].setCheckable(True)
+                self._themes.addAction(self.actions_by_id[id_])
+            menu.aboutToShow.connect(lambda: self.actions_by_id[f"theme_{self._theme_choice()}"].setChecked(True))
+        else:
+            menu.addSeparator()
+            for id_ in ("faster", "slower"):
+                menu.addAction(self.actions_by_id[id_])
+
+    def _list_lessons(self, menu: QMenu) -> None:
+        menu.clear()
+        section = ""
+        for lesson in lessons.all_lessons():
+            if lesson.section != section:
+                section = lesson.section
+                menu.addSection(section)
+            action = menu.addAction(lesson.title)
+            action.setCheckable(True)
+            action.setChecked(lesson is self.session.state.lesson)
+            action.triggered.connect(lambda _, lesson=lesson: self.open_lesson(lesson))
+
+    # -- the window itself ----------------------------------------------------------------------
+
+    def _present(self, is_on: bool) -> None:
+        """Nothing but the picture, on the whole screen; or everything as it was."""
+        self._is_presenting = is_on
+        if is_on:
+            self._before = (self.windowState(), [self._splitter.widget(k).isHidden() for k in (0, 2)], self._splitter.sizes())
+        was, hidden, sizes = self._before
+        for k, was_hidden in zip((0, 2), hidden, strict=True):
+            self._splitter.widget(k).setVisible(not is_on and not was_hidden)
+        for part in (self.menuBar(), self.timeline, *self._hairlines):
+            part.setVisible(not is_on)
+        if is_on:
+            self.viewport.setFocus()
+            self.setWindowState(was | Qt.WindowState.WindowFullScreen)
+        else:
+            self._splitter.setSizes(sizes)
+            self.setWindowState(was)
+        QTimer.singleShot(0, self._show_again)
+
+    def _show_again(self) -> None:
+        self.viewport.show_state(self.session.state)
+
+    def _restore(self) -> None:
+        """As large as last time, or as a lecture likes it; never larger than the screen."""
+        geometry = self.settings.value("geometry")
+        if geometry is None or not self.restoreGeometry(geometry):
+            room = QGuiApplication.primaryScreen().availableSize()
+            self.resize(QSize(1440, 900).boundedTo(room))
+        if (sizes := self.settings.value("panels")) is not None:
+            self._splitter.restoreState(sizes)
+        for k, name in ((0, "contents"), (2, "details")):
+            self._splitter.widget(k).setHidden(self.settings.value(name, "shown") == "hidden")
+        self._wants_details = not self._splitter.widget(2).isHidden()
+
+    def _keep(self) -> None:
+        if self._is_presenting:
+            return
+        self.settings.setValue("geometry", self.saveGeometry())
+        self.settings.setValue("panels", self._splitter.saveState())
+        self.settings.setValue("contents", "hidden" if self._splitter.widget(0).isHidden() else "shown")
+        self.settings.setValue("details", "shown" if self._wants_details else "hidden")
+        self.settings.sync()
+
+    def _folder(self, kind: str) -> str:
+        return str(self.settings.value(f"folder_{kind}", str(Path.home())))
+
+    def _theme_choice(self) -> str:
+        return str(self.settings.value("theme", self._theme))
+
+    def _follow_system(self) -> None:
+        if self._theme_choice() == "system":
+            self.session.do(choose, theme=system_theme())
+
+    # -- Qt's own -------------------------------------------------------------------------------
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if not self._is_presenting:
+            self._splitter.widget(2).setVisible(self._wants_details and event.size().width() >= NARROW)
+        for sheet in self.sheets:
+            sheet.setGeometry(self._body.rect())
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        if any(Path(u.toLocalFile()).suffix.lower() in READABLE for u in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        paths = [u.toLocalFile() for u in event.mimeData().urls()]
+        self.open_file(next(p for p in paths if Path(p).suffix.lower() in READABLE))
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        self.session.stop()
+        self.session.changed.disconnect(self.show_state)
+        QGuiApplication.styleHints().colorSchemeChanged.disconnect(self._follow_system)
+        QApplication.instance().removeEventFilter(self._guard)  # type: ignore[union-attr]
+        self._keep()
+        self.viewport.close_vtk()
+        super().closeEvent(event)
+
+
+def system_theme() -> str:
+    """The theme the desktop asks for."""
+    return "dark" if QGuiApplication.styleHints().colorScheme() == Qt.ColorScheme.Dark else "light"
+
+
+def _column(*parts: QWidget) -> QWidget:
+    found = QWidget()
+    column = QVBoxLayout(found)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(0)
+    for part in parts:
+        column.addWidget(part)
+    return found
+
+
+def _heading(text: str) -> QLabel:
+    from PySide6.QtGui import QFont
+
+    from app.gui.look import type_face
+
+    label = QLabel(text)
+    label.setFont(type_face(12, QFont.Weight.DemiBold))
+    label.setContentsMargins(0, 0, 0, 4)
+    return label
+
+
+def _gap(height: int) -> QWidget:
+    gap = QWidget()
+    gap.setFixedHeight(height)
+    return gap
