@@ -6,7 +6,7 @@ from lessons.script import Beat, Look, fragment, lesson, play, show
 from subdivision import shapes, trace
 from subdivision.schemes import QUAD_CENTROID, tensor_product
 
-LOOK = Look(azimuth=-62.0, elevation=42.0, zoom=1.35)
+LOOK = Look(azimuth=-62.0, elevation=50.0)
 
 
 @lesson("Figure 12  One level for bicubic surfaces", section="3 Quadrilateral meshes",

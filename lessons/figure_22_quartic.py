@@ -6,7 +6,7 @@ from lessons.script import Beat, Look, fragment, lesson, play, show
 from subdivision import shapes, trace
 from subdivision.schemes import TRIANGLE_CENTROID
 
-LOOK = Look(azimuth=-62.0, elevation=48.0, zoom=1.3)
+LOOK = Look(azimuth=-62.0, elevation=58.0)
 
 
 @lesson("Figure 22  One level for the three-direction quartic", section="4 Triangular meshes",

@@ -4,6 +4,8 @@ Nothing is painted: the result is a display list, so that a test can read "four 
 3/8 3/8 1/8 1/8" without a screen, and every painter paints the same.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.draw import diagrams, motion
@@ -19,8 +21,20 @@ from subdivision.rows import shown_faces
 MARKER = 0.036
 """Radius of an original point, relative to the radius of the control object."""
 
-CROWDED = 0.2
+FRAME = 1.4
+"""Width to height of the part of a pane that the control object fills; wider panes have room beside it."""
+
+FILLED = 0.86
+"""How much of it."""
+
+CROWDED = 0.17
 """... but no more than this part of the typical edge."""
+
+CORNERED = 0.55
+"""How much smaller helpers are where a face has one for every corner."""
+
+MANY = 240
+"""Beyond so many points only extraordinary vertices are marked once the points have come to rest."""
 
 FEW = 60
 """Up to so many points, ids and valences are written at them."""
@@ -62,10 +76,9 @@ def camera(trace: Trace, look: Look) -> Camera:
     azimuth, elevation = np.radians(look.azimuth), np.radians(look.elevation)
     towards = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
     up = np.array([-np.sin(elevation) * np.cos(azimuth), -np.sin(elevation) * np.sin(azimuth), np.cos(elevation)])
-    reach = 1.08 * radius / look.zoom
     if look.parallel:
         return Camera(centre + 10 * radius * towards, centre, up, scale=_half_height(points, centre, up) / look.zoom)
-    return Camera(centre + reach / np.sin(np.radians(15.0)) * towards, centre, up)
+    return _framed(Camera(centre + 4 * radius * towards, centre, up), points, look.zoom)
 
 
 def scene(
@@ -119,6 +132,22 @@ def _counts(state: State) -> str:
     return f"level {level_of(state)}   " + "  ".join(parts)
 
 
+def _framed(camera: Camera, points: Floats, zoom: float) -> Camera:
+    """The camera moved sideways and back until the points fill the frame, but for a margin."""
+    for _ in range(6):
+        seen = camera.project(points, FRAME, 1.0)
+        low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+        fill = float(((high - low) / (FRAME, 1.0)).max()) * zoom / FILLED
+        ahead = camera.focal - camera.position
+        right = np.cross(ahead, camera.up) / np.linalg.norm(ahead)
+        visible = 2 * float(np.linalg.norm(ahead)) * np.tan(np.radians(camera.angle) / 2)
+        across, down = (low + high) / 2 - (FRAME / 2, 0.5)
+        aside = visible * (across * right - down * camera.up)
+        focal = camera.focal + aside
+        camera = replace(camera, position=focal - ahead * max(fill, 0.05), focal=focal)
+    return camera
+
+
 def _half_height(points: Floats, centre: Floats, up: Floats) -> float:
     right = np.cross([0.0, 0.0, 1.0], up)
     tall, wide = np.abs((points - centre) @ up).max(), np.abs((points - centre) @ right).max()
@@ -137,14 +166,16 @@ def _marker_radius(trace: Trace, frame: Frame) -> float:
 
 def _faint(frame: Frame) -> Mask:
     """(n,) bool: points that only support the surface: every face round them is hidden."""
-    t, n = frame.topology, len(frame.points)
-    if not t.hidden.any():
-        return np.zeros(n, dtype=bool)
-    shown = np.zeros(n, dtype=bool)
-    shown[t.origin[~t.hidden[np.repeat(np.arange(t.n_faces), t.face_sizes)]]] = True
-    if n > t.n_vertices:
-        shown[t.n_vertices :] = _shown_helpers(frame)
-    return ~shown
+    if not frame.topology.hidden.any():
+        return np.zeros(len(frame.points), dtype=np.bool_)
+    return ~np.concatenate([_shown_vertices(frame.topology), _shown_helpers(frame)])
+
+
+def _shown_vertices(t: Connectivity) -> Mask:
+    """(n_vertices,) bool: corners of faces that are not hidden; all of them where none is."""
+    shown = np.full(t.n_vertices, not t.hidden.any())
+    shown[shown_faces(t)[1]] = True
+    return shown
 
 
 def _shown_helpers(frame: Frame) -> Mask:
@@ -170,7 +201,7 @@ def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     new = frame.newborn[: t.n_vertices][ends].all(axis=1)
     sharp = _sharp(t)
     growth = float(frame.progress)
-    width = 2.6 * (1.0 if len(ends) < 800 else 0.6) * theme.stroke
+    width = (3.2 if t.n_faces else 5.0) * (1.0 if len(ends) < 800 else 0.6) * theme.stroke
     parts = [
         Lines(points, ends[faint], theme.faint, 0.7 * width),
         Lines(points, ends[~faint & ~new & ~sharp], theme.edge if t.n_faces else theme.net, width),
@@ -187,10 +218,11 @@ def _sharp(t: Connectivity) -> Mask:
 
 def _ghost(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     """What the stage began with, while and after points leave it."""
-    if not options.ghost or frame.stage is None or not frame.stage.moves:
+    if not options.ghost or frame.stage is None or not frame.stage.moves or len(frame.points) > MANY:
         return ()
     before = frame.before
-    return (Lines(before.points, before.topology.ends, theme.net, 1.6 * theme.stroke, 0.55, dashed=True),)
+    shown = _shown_vertices(before.topology)[before.topology.ends].all(axis=1)
+    return (Lines(before.points, before.topology.ends[shown], theme.net, 2.4 * theme.stroke, 0.7, dashed=True),)
 
 
 def _ghost_markers(frame: Frame, theme: Theme, options: Options, radius: float) -> tuple[Markers, ...]:
@@ -217,10 +249,14 @@ def _markers(frame: Frame, theme: Theme, options: Options, radius: float, faint:
     if frame.stage is not None and not frame.stage.moves:
         roles = frame.roles
     size = np.array([SIZES[Role(r)] for r in range(len(Role))])[roles] * radius * motion.grown(frame.birth)
+    if len(size) > MANY and frame.progress == 1 and frame.stage is not None and frame.stage.moves:
+        size = np.where(_extraordinary(frame), 1.6 * size, 0.0)
     found = []
     for role in Role:
         if role is Role.CENTROID and not options.helpers:
             continue
+        if role is Role.CENTROID and (roles == role).sum() > frame.topology.n_faces > 0:
+            size = CORNERED * size  # three to a triangle
         of = (roles == role) & ~faint & (size > 0)
         if of.any():
             ids = np.flatnonzero(of)
@@ -233,6 +269,14 @@ def _markers(frame: Frame, theme: Theme, options: Options, radius: float, faint:
             frame.points[of], Shape.SPHERE, theme.faint, 0.6 * size[of], np.ones(of.sum()), np.flatnonzero(of), "",
         ))  # fmt: skip
     return tuple(found)
+
+
+def _extraordinary(frame: Frame) -> Mask:
+    """(n,) bool: extraordinary vertices of a mesh."""
+    found = np.zeros(len(frame.points), dtype=np.bool_)
+    if isinstance(frame.topology, Topology):
+        found[: frame.topology.n_vertices] = frame.topology.extraordinary
+    return found
 
 
 def _numbers(frame: Frame, theme: Theme, options: Options) -> tuple[Label, ...]:
@@ -254,7 +298,7 @@ def _pointed_out(
     parents = trace.points[max(k - span, 0)][stencil.parents]
     point = frame.points[stencil.point]
     weights = np.abs(stencil.weights)
-    size = radius * (0.9 + 1.3 * np.sqrt(weights / weights.max()))
+    size = radius * (0.7 + 1.1 * np.sqrt(weights / weights.max()))
     none = np.full(len(parents), -1)
     rings = Markers(parents, Shape.SPHERE, theme.selection, size, np.full(len(parents), 0.55), none, "contributor")
     chosen = Markers(
