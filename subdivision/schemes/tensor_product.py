@@ -27,13 +27,15 @@ from subdivision.topology import TopologyError
 S, T = (1, 0), (0, 1)
 
 
-def tensor_product(m: int, n: int) -> Scheme:
+def tensor_product(m: int, n: int, order: str = "") -> Scheme:
     """The scheme of bidegree ``(m, n)``, both at least 1.
+
+    ``order``, such as ``"sttsst"``, adds the telling that quadruples and then averages in that order.
 
     Raises
     ------
     TopologyError
-        For a degree below 1.
+        For a degree below 1, or an order that has not ``m`` times s and ``n`` times t.
     """
     if min(m, n) < 1:
         raise TopologyError(f"bidegree ({m}, {n}) needs both degrees to be 1 or more")
@@ -48,6 +50,9 @@ def tensor_product(m: int, n: int) -> Scheme:
     if (m, n) == (3, 3):
         bilinear = merged("topology", [quadruple, average(S), average(T)])
         tellings["topology and geometry"] = lambda t: topology_and_geometry(as_grid(t), bilinear)
+    if order:
+        in_this_order = [quadruple, *_ordered(order, m, n)]
+        tellings[f"quadruple, then {order}"] = lambda t: told(t, in_this_order)
     return Scheme(
         name=f"tensor-product-{m}-{n}",
         title=f"Tensor product B-spline of bidegree ({m}, {n})",
@@ -62,6 +67,12 @@ def alternating(m: int, n: int) -> list[Pass]:
     """``m`` passes along s and ``n`` along t, in turns."""
     turns = zip_longest([average(S)] * m, [average(T)] * n)
     return [one for one in chain.from_iterable(turns) if one is not None]
+
+
+def _ordered(order: str, m: int, n: int) -> list[Pass]:
+    if sorted(order) != ["s"] * m + ["t"] * n:
+        raise TopologyError(f"the order '{order}' must have {m} times s and {n} times t, and nothing else")
+    return [average(S if direction == "s" else T) for direction in order]
 
 
 def _refuses(t: Connectivity, lost: tuple[int, int]) -> str:
