@@ -9,7 +9,7 @@ from subdivision.schemes import tensor_product
 LOOK = Look(azimuth=-60.0, elevation=32.0)
 
 
-@lesson("Figure 5  Quadruple, then average", section="2 Box splines")
+@lesson("Figure 5  Quadruple, average", section="2 Box splines")
 def figure_05_quadruple_then_average() -> Iterator[Beat]:
     net = shapes.net(3, 3)
     told = trace(tensor_product(1, 1), net, telling="quadruple, then average")

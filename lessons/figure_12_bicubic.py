@@ -9,7 +9,7 @@ from subdivision.schemes import QUAD_CENTROID, tensor_product
 LOOK = Look(azimuth=-62.0, elevation=50.0)
 
 
-@lesson("Figure 12  One level for bicubic surfaces", section="3 Quadrilateral meshes",
+@lesson("Figure 12  Bicubic surfaces", section="3 Quadrilateral meshes",
         ours="The faint ring: the lecture draws one face, but all its nine points need the faces around it.")
 def figure_12_bicubic() -> Iterator[Beat]:
     told = trace(QUAD_CENTROID, fragment(shapes.face_and_ring()))

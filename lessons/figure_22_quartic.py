@@ -9,7 +9,7 @@ from subdivision.schemes import TRIANGLE_CENTROID
 LOOK = Look(azimuth=-62.0, elevation=58.0)
 
 
-@lesson("Figure 22  One level for the three-direction quartic", section="4 Triangular meshes",
+@lesson("Figure 22  Quartic surfaces", section="4 Triangular meshes",
         ours="The faint ring: the lecture draws two faces, but all their nine points need the faces around them.")
 def figure_22_quartic() -> Iterator[Beat]:
     told = trace(TRIANGLE_CENTROID, fragment(shapes.two_triangles_and_ring()))

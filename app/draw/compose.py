@@ -33,6 +33,9 @@ CROWDED = 0.17
 CORNERED = 0.55
 """How much smaller helpers are where a face has one for every corner."""
 
+CONTRIBUTOR, POINTED_OUT = "contributor", "pointed out"
+"""Names of the markers of a stencil."""
+
 MANY = 240
 """Beyond so many points only extraordinary vertices are marked once the points have come to rest."""
 
@@ -63,9 +66,12 @@ def compose(state: State) -> Picture:
 
 
 def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
-    """One entry for each kind of point that is in the picture, in the order of the roles."""
+    """One entry for each kind of point that is in the picture: the roles in order, then what is pointed out."""
     there = {m.name for p in panes if isinstance(p.content, Scene) for m in p.content.markers if len(m.points)}
-    return tuple(Entry(SHAPES[r], theme.roles[r], NAMES[r]) for r in Role if NAMES[r] in there)
+    points = [Entry(SHAPES[r], theme.roles[r], NAMES[r]) for r in Role if NAMES[r] in there]
+    if CONTRIBUTOR in there:
+        points.append(Entry(Shape.SPHERE, theme.selection, CONTRIBUTOR))
+    return tuple(points)
 
 
 def camera(trace: Trace, look: Look) -> Camera:
@@ -300,9 +306,9 @@ def _pointed_out(
     weights = np.abs(stencil.weights)
     size = radius * (0.7 + 1.1 * np.sqrt(weights / weights.max()))
     none = np.full(len(parents), -1)
-    rings = Markers(parents, Shape.SPHERE, theme.selection, size, np.full(len(parents), 0.55), none, "contributor")
+    rings = Markers(parents, Shape.SPHERE, theme.selection, size, np.full(len(parents), 0.55), none, CONTRIBUTOR)
     chosen = Markers(
-        point[None], Shape.HALO, theme.selection, np.array([1.5 * radius]), np.ones(1), none[:1], "pointed out"
+        point[None], Shape.HALO, theme.selection, np.array([1.5 * radius]), np.ones(1), none[:1], POINTED_OUT
     )
     ends = np.stack([np.arange(len(parents)), np.full(len(parents), len(parents))], axis=1)
     rays = Lines(np.vstack([parents, point]), ends, theme.selection, 3.0 * theme.stroke, 0.8)
