@@ -74,7 +74,7 @@ def _limits(told: Trace, levels: int) -> str:
 
 
 def _said(stage: Stage, level: int, told: Trace) -> str:
-    known = SENTENCES.get(stage.name, f"{stage.name.capitalize()}: {'points move' if stage.moves else 'nothing moves'}.")
-    sentence = known.format(and_faces="" if told.scheme is TRIANGLE_CENTROID else "a point on every face, ")
+    and_faces = "" if told.scheme is TRIANGLE_CENTROID else "a point on every face, "
+    sentence = SENTENCES.get(stage.name, f"{stage.name.capitalize()}.").format(and_faces=and_faces)
     faces = f" {stage.topology.n_faces:,} faces." if stage.name in ("topology", "connect") else ""
     return f"{'Again. ' if level else ''}{sentence}{faces}"

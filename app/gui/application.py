@@ -15,7 +15,6 @@ from PySide6.QtCore import (
     QMessageLogContext,
     QSettings,
     QStandardPaths,
-    Qt,
     QTimer,
     QtMsgType,
     qInstallMessageHandler,
@@ -77,6 +76,7 @@ def application() -> QApplication:
     app.setStyle("Fusion")
     app.setWindowIcon(look.studio_icon())
     look.load_fonts()
+    app.setFont(look.type_face(14))
     return app
 
 
@@ -92,7 +92,7 @@ def prepare() -> None:
     wanted.setStencilBufferSize(0)
     wanted.setSamples(0)  # VTK smooths in buffers of its own
     QSurfaceFormat.setDefaultFormat(wanted)
-    QApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
+    # No AA_ShareOpenGLContexts: no widget moves to another window, and pyvistaqt would set off a warning with it.
 
 
 def first_state(lesson_id: str | None, step: int | None, settings: QSettings) -> State:
@@ -162,6 +162,7 @@ def _refuse(sentence: str) -> int:
 
 
 def settings_file() -> QSettings:
+    """Where the window remembers its size, its panels and its theme."""
     return QSettings(QSettings.Format.IniFormat, QSettings.Scope.UserScope, "Subdivision Studio", "window")
 
 

@@ -7,9 +7,10 @@ from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QSizePolicy, QWidget
 
 from app.draw.theme import THEMES
-from app.gui.look import GRID, chosen_of, colour, mixed
+from app.gui.look import GRID, chosen_of, colour, icon, mixed
 from app.gui.session import Session
 from app.gui.timeline import tool_button
+from subdivision import Role
 
 
 class Banner(QWidget):
@@ -59,8 +60,6 @@ class Banner(QWidget):
             self.hide()
 
     def _set(self, sentence: str, *, is_fault: bool, is_busy: bool) -> None:
-        from app.gui.look import icon
-
         self._is_fault = is_fault
         self.words.setText(sentence)
         self.setAccessibleName(sentence)
@@ -76,8 +75,9 @@ class Banner(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         theme = THEMES[self._session.state.options.theme]
-        vermilion = THEMES["light"].roles[2]  # type: ignore[index]
+        vermilion = theme.roles[Role.FACE]
         painter = QPainter(self)
-        painter.fillRect(self.rect(), colour(mixed(theme.panel, vermilion, 0.16) if self._is_fault else chosen_of(theme)))
+        ground = mixed(theme.panel, vermilion, 0.16) if self._is_fault else chosen_of(theme)
+        painter.fillRect(self.rect(), colour(ground))
         painter.fillRect(0, 0, 4, self.height(), colour(vermilion if self._is_fault else theme.accent))
         painter.end()

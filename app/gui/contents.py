@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent, QPainter, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import (
     QLineEdit,
@@ -124,18 +124,17 @@ class Contents(QWidget):
 
     def eventFilter(self, watched: object, event: object) -> bool:
         """Up and Down in the search box go to the list."""
-        if isinstance(event, QKeyEvent) and event.type() == QKeyEvent.Type.KeyPress:
-            if event.key() in (Qt.Key.Key_Down, Qt.Key.Key_Up):
-                self.list.setFocus(Qt.FocusReason.TabFocusReason)
-                self.list.keyPressEvent(event)
-                return True
-        return False
+        if not isinstance(event, QKeyEvent) or event.type() != QKeyEvent.Type.KeyPress:
+            return False
+        if event.key() not in (Qt.Key.Key_Down, Qt.Key.Key_Up):
+            return False
+        self.list.setFocus(Qt.FocusReason.TabFocusReason)
+        self.list.keyPressEvent(event)
+        return True
 
 
 class _List(QListView):
     """A quiet list with something to say when it is empty."""
-
-    opened = Signal(object)
 
     def __init__(self) -> None:
         super().__init__()
@@ -176,7 +175,10 @@ class _Painter(QStyledItemDelegate):
         painter.save()
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if lesson is None:
-            self._words(painter, str(index.data()), box.adjusted(GRID, 0, 0, -4), colour(theme.muted), 12, bottom=True)
+            painter.setFont(type_face(12, QFont.Weight.DemiBold))
+            painter.setPen(colour(theme.muted))
+            where = Qt.AlignmentFlag.AlignBottom | Qt.AlignmentFlag.AlignLeft
+            painter.drawText(box.adjusted(GRID, 0, 0, -4), where, str(index.data()))
             painter.restore()
             return
         is_open = lesson is state.lesson
@@ -192,16 +194,23 @@ class _Painter(QStyledItemDelegate):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(colour(theme.accent))
             painter.drawRoundedRect(box.adjusted(1, 2, -1, -2), 6, 6)
-        self._words(painter, lesson.title, box.adjusted(GRID + 4, 0, -GRID, 0), colour(theme.ink), 14, bold=is_open)
+        number, title = numbered(lesson.title)
+        ink, muted = colour(theme.ink), colour(theme.ink if is_open else theme.muted)
+        if number:
+            painter.setFont(type_face(13, QFont.Weight.Medium))
+            painter.setPen(muted)
+            place = QRect(box.left() + GRID, box.top(), 3 * GRID - 2, box.height())
+            painter.drawText(place, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, number)
+        face = type_face(14, QFont.Weight.DemiBold if is_open else QFont.Weight.Normal)
+        room = box.adjusted((4 if number else 1) * GRID, 0, -4, 0)
+        cut = QFontMetrics(face).elidedText(title, Qt.TextElideMode.ElideRight, room.width())
+        painter.setFont(face)
+        painter.setPen(ink)
+        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, cut)
         painter.restore()
 
-    def _words(
-        self, painter: QPainter, text: str, box: QRect, ink: object, size: int, *, bold: bool = False, bottom: bool = False
-    ) -> None:
-        face = type_face(size, QFont.Weight.DemiBold if bold or bottom else QFont.Weight.Normal)
-        painter.setFont(face)
-        painter.setPen(ink)  # type: ignore[arg-type]
-        line = " ".join(text.split())
-        cut = QFontMetrics(face).elidedText(line, Qt.TextElideMode.ElideRight, box.width())
-        where = Qt.AlignmentFlag.AlignBottom if bottom else Qt.AlignmentFlag.AlignVCenter
-        painter.drawText(box, where | Qt.AlignmentFlag.AlignLeft, cut)
+
+def numbered(title: str) -> tuple[str, str]:
+    """A figure's number and the rest of its title: in a list of figures the word says nothing."""
+    head, _, rest = title.partition("  ")
+    return (head.removeprefix("Figure "), rest.strip()) if rest and head.startswith("Figure ") else ("", title)

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QApplication, 
 
 from app.gui.shown import SHOWN
 from app.gui.timeline import SPEEDS, next_speed, spoken_speed
-from app.state import Options, back, choose, first, forward, last, skip, toggle, toggle_play, turn_level
+from app.state import Options, State, back, choose, first, forward, last, skip, toggle, toggle_play, turn_level
 
 if TYPE_CHECKING:
     from app.gui.window import Window
@@ -35,7 +35,7 @@ class Command:
     repeats: bool = False
 
 
-def _wish(transition: Callable[..., object], *args: object, **options: object) -> Does:
+def _wish(transition: Callable[..., State], *args: object, **options: object) -> Does:
     return lambda w: w.session.do(transition, *args, **options)
 
 
@@ -48,7 +48,8 @@ def _theme(name: str) -> Command:
 
 
 def _speed(speed: float) -> Command:
-    return Command(f"speed_{speed:g}", spoken_speed(speed), "Speed", (), _wish(choose, speed=speed), lambda o: o.speed == speed)
+    name = spoken_speed(speed)
+    return Command(f"speed_{speed:g}", name, "Speed", (), _wish(choose, speed=speed), lambda o: o.speed == speed)
 
 
 def _pace(by: int) -> Does:
@@ -71,7 +72,8 @@ COMMANDS = (
     Command("skip_back", "Previous stage, without playing", "Lesson", ("Shift+PgUp", "Shift+Left"), _wish(skip, -1)),
     Command("first", "First stage", "Lesson", ("Home",), _wish(first), icon="first"),
     Command("last", "Last stage", "Lesson", ("End",), _wish(last), icon="last"),
-    Command("through", "Play through stages", "Lesson", ("T",), _wish(toggle, "through"), lambda o: o.through, "through"),
+    Command("through", "Play through stages", "Lesson", ("T",), _wish(toggle, "through"),
+            lambda o: o.through, "through"),
     Command("faster", "Faster", "Lesson", ("+",), _pace(1)),
     Command("slower", "Slower", "Lesson", ("-",), _pace(-1)),
     Command("search", "Find a lesson", "Lesson", ("Ctrl+K",), lambda w: w.find_lesson(), icon="search"),
@@ -80,8 +82,8 @@ COMMANDS = (
     Command("blank", "Blank the picture", "Present", (".", "B"), _wish(toggle, "blank"), lambda o: o.blank),
     Command("escape", "Leave full screen, close what is open", "Present", ("Esc",), lambda w: w.escape()),
     *(_switch(option, name, key) for option, name, key in SHOWN),
-    Command("contents", "Lessons panel", "View", ("F9",), lambda w: w.toggle_panel(0)),
-    Command("shown", "Details panel", "View", ("F10",), lambda w: w.toggle_panel(2)),
+    Command("contents", "Lessons panel", "View", ("F9",), lambda w: w.toggle_panel("contents")),
+    Command("shown", "Details panel", "View", ("F10",), lambda w: w.toggle_panel("details")),
     Command("camera", "Reset the view", "View", ("R",), lambda w: w.viewport.reset_camera()),
     Command("open", "Open mesh…", "File", ("Ctrl+O",), lambda w: w.choose_file()),
     Command("save", "Save picture as…", "File", ("Ctrl+S",), lambda w: w.save_picture()),
@@ -117,6 +119,9 @@ def _parts(key: str) -> list[str]:
     return [key] if key in "+-" else key.split("+")
 
 
+HARMLESS = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
+
+
 class KeyGuard(QObject):
     """Lets our keys through to their commands wherever the focus is.
 
@@ -143,7 +148,7 @@ class KeyGuard(QObject):
 
 def wants(focus: object, event: QKeyEvent) -> bool | None:
     """Whether the widget in focus keeps a key: yes, no, or as it says itself (None)."""
-    key, plain = event.key(), not event.modifiers() & ~(Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier)
+    key, plain = event.key(), not event.modifiers() & ~HARMLESS
     if isinstance(focus, QLineEdit):
         if focus.text() and key not in (Qt.Key.Key_PageDown, Qt.Key.Key_PageUp):
             return None

@@ -17,6 +17,7 @@ GRID = 8
 
 
 def colour(value: Colour, opacity: float = 1.0) -> QColor:
+    """Qt's colour."""
     return QColor.fromRgbF(*value, opacity)
 
 
@@ -51,6 +52,7 @@ def type_face(pixels: float, weight: QFont.Weight = QFont.Weight.Normal) -> QFon
 
 
 def load_fonts() -> None:
+    """Make the shipped typeface known to Qt."""
     for file in sorted((ASSETS / "fonts").glob("*.otf")):
         QFontDatabase.addApplicationFont(str(file))
 
@@ -63,6 +65,7 @@ def dress(app: QApplication, theme: Theme) -> None:
 
 
 def palette(theme: Theme) -> QPalette:
+    """The theme in Qt's words."""
     found = QPalette()
     role = QPalette.ColorRole
     colours = {
@@ -151,6 +154,7 @@ def drawn(svg: str, size: int) -> QPixmap:
 
 
 def studio_icon() -> QIcon:
+    """The program's own icon."""
     found = QIcon()
     for size in (16, 32, 48, 128, 256):
         found.addPixmap(drawn((ASSETS / "icons" / "studio.svg").read_text(), size))

@@ -86,4 +86,3 @@ def _laid(text: str, formula: str, size: float, width: float) -> tuple[list[tupl
             tall, ascent + descent + 0.1 * size
         )
     return [*found, (formula, 0.0, tall + ascent + 0.1 * size, "center")], tall + ascent + descent + 0.1 * size
-

@@ -34,11 +34,11 @@ class Sheet(QWidget):
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent)
-        self._session = session
+        self._session, self._under = session, parent
         self.hide()
 
     def toggle(self) -> None:
-        self.setGeometry(self.parentWidget().rect())
+        self.setGeometry(self._under.rect())
         self.setVisible(self.isHidden())
         self.raise_()
 

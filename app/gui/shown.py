@@ -1,6 +1,6 @@
 """The panel 'Shown': what the picture has on it."""
 
-from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QCheckBox, QVBoxLayout, QWidget
 
@@ -12,7 +12,7 @@ from app.state import State, toggle
 SHOWN = (
     ("surface", "Surface", "U"),
     ("net", "Net", "N"),
-    ("ghost", "Ghost of the stage before", "G"),
+    ("ghost", "Ghost", "G"),
     ("helpers", "Centroids", "C"),
     ("weights", "Weights", "W"),
     ("labels", "Numbers", "L"),
@@ -52,7 +52,7 @@ class Switch(QCheckBox):
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
 
     def sizeHint(self) -> QSize:
-        return QSize(180, 28)
+        return QSize(144, 28)
 
     def hitButton(self, pos: object) -> bool:
         return True
@@ -68,7 +68,7 @@ class Switch(QCheckBox):
         painter.drawRoundedRect(box, 4, 4)
         if self.isChecked():
             painter.setPen(QPen(colour(theme.background), 2, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-            painter.drawPolyline(QPolygonF([box.topLeft() + p for p in _tick()]))
+            painter.drawPolyline(QPolygonF([box.topLeft() + p for p in TICK]))
         painter.setFont(type_face(14))
         painter.setPen(colour(theme.ink))
         words = QRectF(box.right() + GRID, 0, self.width() - box.right() - 3 * GRID, self.height())
@@ -83,7 +83,4 @@ class Switch(QCheckBox):
         painter.end()
 
 
-def _tick() -> list[object]:
-    from PySide6.QtCore import QPointF
-
-    return [QPointF(4, 8.4), QPointF(7, 11.4), QPointF(12.2, 5.2)]
+TICK = (QPointF(4, 8.4), QPointF(7, 11.4), QPointF(12.2, 5.2))

@@ -1,4 +1,4 @@
-"""The way through the lesson: a segment for every stage, a taller tick where a level ends, buttons before and behind."""
+"""The way through the lesson: a segment for every stage, a taller tick where a level ends, and its buttons."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QMouseEvent,
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QToolTip, QWidget
 
 from app.draw.theme import THEMES
-from app.gui.look import GRID, colour, icon, line_of, mixed, type_face
+from app.gui.look import GRID, colour, icon, mixed, type_face
 from app.gui.session import Session
 from app.state import Segment, State, axis_of, choose, seek, segments
 
@@ -38,7 +38,9 @@ class Timeline(QWidget):
         row.addSpacing(GRID)
         for name in ("level_down", "level_up", "through"):
             row.addWidget(button(name))
-        self._speed = QToolButton(toolTip="Speed: slower −, faster +", accessibleName="Speed")
+        self._speed = QToolButton()
+        self._speed.setToolTip("Speed: slower −, faster +")
+        self._speed.setAccessibleName("Speed")
         self._speed.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self._speed.setMinimumSize(QSize(48, 32))
         self._speed.clicked.connect(lambda: session.do(choose, speed=next_speed(session.state.options.speed)))
@@ -125,8 +127,7 @@ class Track(QWidget):
             tall = 11.0 if s.ends_level else 6.0
             painter.setPen(QPen(colour(theme.ink if s.ends_level else theme.muted), 1.6 if s.ends_level else 1.0))
             painter.drawLine(QPointF(right, middle - tall), QPointF(right, middle + tall))
-            ink = colour(theme.ink if s is now else theme.muted)
-            self._name(painter, s, left, right, middle, ink, is_now=s is now)
+            self._name(painter, s, colour(theme.ink if s is now else theme.muted), is_now=s is now)
             if s.ends_level and right - taken > 26:
                 self._word(painter, f"×{s.level}", right, middle + 24, colour(theme.ink), 12)
                 taken = right
@@ -137,7 +138,6 @@ class Track(QWidget):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(colour(theme.accent), 2))
             painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 3, -1, -3), 6, 6)
-        painter.setPen(QPen(colour(line_of(theme)), 1))
         painter.end()
 
     def _bar(self, painter: QPainter, left: float, right: float, middle: float, ink: QColor) -> None:
@@ -145,14 +145,21 @@ class Track(QWidget):
         painter.setBrush(ink)
         painter.drawRect(QRectF(left, middle - 2, max(right - left, 0), 4))
 
-    def _name(
-        self, painter: QPainter, s: Segment, left: float, right: float, middle: float, ink: QColor, *, is_now: bool
-    ) -> None:
+    def _name(self, painter: QPainter, s: Segment, ink: QColor, *, is_now: bool) -> None:
+        """A stage's name over its segment, where all of the lesson's names fit; else only the one that plays."""
         face = type_face(12, QFont.Weight.DemiBold if is_now else QFont.Weight.Normal)
-        if s.name and QFontMetricsF(face).horizontalAdvance(s.name) < right - left - 6:
-            painter.setFont(face)
-            painter.setPen(ink)
-            painter.drawText(QRectF(left, middle - 25, right - left, 16), Qt.AlignmentFlag.AlignCenter, s.name)
+        left, right = self._x(s.begin), self._x(s.end)
+        if not is_now and not self._has_room(face):
+            return
+        wide = QFontMetricsF(face).horizontalAdvance(s.name) + 2
+        x = min(max((left + right - wide) / 2, 0.0), self.width() - wide)
+        painter.setFont(face)
+        painter.setPen(ink)
+        painter.drawText(QRectF(x, self.height() / 2 - 26, wide, 16), Qt.AlignmentFlag.AlignCenter, s.name)
+
+    def _has_room(self, face: QFont) -> bool:
+        parts, wide = segments(self._session.state.lesson), QFontMetricsF(face).horizontalAdvance
+        return all(wide(s.name) + 6 < self._x(s.end) - self._x(s.begin) for s in parts if s.name)
 
     def _word(self, painter: QPainter, text: str, x: float, base: float, ink: QColor, size: int) -> None:
         painter.setFont(type_face(size, QFont.Weight.DemiBold))
@@ -174,6 +181,7 @@ def next_speed(speed: float, by: int = 1) -> float:
 
 
 def spoken_speed(speed: float) -> str:
+    """A speed as people write it."""
     return f"{speed:g}×"
 
 

@@ -70,12 +70,13 @@ class Viewport(QWidget):
         from app.draw.vtk import ScenePainter
 
         self._plotter = QtInteractor(
-            self, auto_update=False, multi_samples=0, shape=(1, PANES), border=False, lighting="none"
+            self, auto_update=False, multi_samples=0, shape=(1, PANES + 1), border=False, lighting="none"
         )
         self._plotter.setAcceptDrops(False)
         self._plotter.setAccessibleName("Picture")
         self._plotter.installEventFilter(self)
-        self._painters = [ScenePainter(self._plotter, (0, k)) for k in range(PANES)]
+        self._painters = [ScenePainter(self._plotter, 1 + k) for k in range(PANES)]
+        self._plotter.renderers[0].SetViewport(0, 0, 1, 1)  # clears what no pane covers
         self._plotter.setGeometry(self.rect())
         self._plotter.show()
         self._plotter.lower()
@@ -268,7 +269,7 @@ class Viewport(QWidget):
         if not found:
             return None
         points, ids = (np.concatenate(each) for each in zip(*found, strict=True))
-        flat = camera.project(points, area[2], area[3]) + [area[0] - at.x(), area[1] - at.y(), 0.0]
+        flat = camera.project(points, area[2], area[3]) + np.array([area[0] - at.x(), area[1] - at.y(), 0.0])
         apart = np.where(ids >= 0, np.hypot(flat[:, 0], flat[:, 1]), np.inf)
         near = np.flatnonzero(apart < REACH)
         if not near.size:

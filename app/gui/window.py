@@ -9,6 +9,7 @@ from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
     QDropEvent,
+    QFont,
     QGuiApplication,
     QKeySequence,
     QResizeEvent,
@@ -31,7 +32,7 @@ from app.draw.theme import THEMES
 from app.gui.banner import Banner
 from app.gui.contents import Contents
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
-from app.gui.look import GRID, colour, dress, icon, line_of
+from app.gui.look import GRID, colour, dress, icon, line_of, type_face
 from app.gui.opening import Opener
 from app.gui.session import Session
 from app.gui.sheets import About, Keys
@@ -43,7 +44,7 @@ from app.state import State, choose, open_lesson
 from subdivision.files import READABLE
 
 NAME = "Subdivision Studio"
-LEFT, RIGHT = 208, 200
+LEFT, RIGHT = 200, 200
 """Widths of the side panels."""
 
 NARROW = 1100
@@ -62,6 +63,11 @@ MENUS = (
 
 class Window(QMainWindow):
     """Builds the parts, hands them every state, and does what is not a change of state."""
+
+    session: Session
+    viewport: Viewport
+    _body: QWidget
+    _sides: dict[str, QWidget]
 
     def __init__(self, session: Session, settings: QSettings) -> None:
         super().__init__()
@@ -143,15 +149,15 @@ class Window(QMainWindow):
         self.sheets[0].hide()
         self.sheets[1].toggle()
 
-    def toggle_panel(self, place: int) -> None:
-        """Show or hide the panel at a place of the splitter."""
-        panel = self._splitter.widget(place)
-        panel.setVisible(panel.isHidden())
-        if place == 2:
-            self._wants_details = not panel.isHidden()
+    def toggle_panel(self, name: str) -> None:
+        """Show or hide one of the side panels."""
+        side = self._sides[name]
+        side.setVisible(side.isHidden())
+        if name == "details":
+            self._wants_details = not side.isHidden()
 
     def find_lesson(self) -> None:
-        self._splitter.widget(0).show()
+        self._sides["contents"].show()
         self.contents.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
         self.contents.search.selectAll()
 
@@ -226,24 +232,24 @@ class Window(QMainWindow):
     def _build(self) -> None:
         self._is_presenting, self._wants_details = False, True
         self._hairlines: list[QWidget] = []
-        middle = _column(self.banner, self.viewport, self._hairline(), self.timeline)
-        middle.layout().setStretchFactor(self.viewport, 1)  # type: ignore[attr-defined]
+        middle = _column(self.banner, self.viewport, self._hairline(), self.timeline, stretched=self.viewport)
+        self._sides = {"contents": self.contents, "details": self._details()}
         self._splitter = QSplitter(Qt.Orientation.Horizontal)
         self._splitter.setHandleWidth(1)
-        for part in (self.contents, middle, self._details()):
+        for part in (self._sides["contents"], middle, self._sides["details"]):
             self._splitter.addWidget(part)
         self._splitter.setStretchFactor(1, 1)
         self._splitter.setCollapsible(1, False)
         self._splitter.setSizes([LEFT, 10_000, RIGHT])
-        self._body = _column(self._hairline(), self._splitter)
+        self._body = _column(self._hairline(), self._splitter, stretched=self._splitter)
         self.setCentralWidget(self._body)
         for name, ids in MENUS:
             self._menu(self.menuBar().addMenu(name), ids)
 
     def _details(self) -> QWidget:
-        inside = _column(_heading("Shown"), self.shown, _gap(2 * GRID), _heading("Why is it here?"), self.why)
-        inside.layout().setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)  # type: ignore[union-attr]
-        inside.layout().setStretchFactor(self.why, 1)  # type: ignore[attr-defined]
+        parts = (_heading("Shown"), self.shown, _gap(2 * GRID), _heading("Why is it here?"), self.why)
+        inside = _column(*parts, stretched=self.why)
+        inside.setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)
         scroll = QScrollArea(widgetResizable=True)
         scroll.setWidget(inside)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -270,10 +276,11 @@ class Window(QMainWindow):
         if menu.title() == "Lessons":
             menu.aboutToShow.connect(lambda: self._list_lessons(menu))
             return
-        ids = [f"speed_{s:g}" for s in SPEEDS] if menu.title() == "Speed" else [f"theme_{t}" for t in (*THEMES, "system")]
+        is_speed = menu.title() == "Speed"
+        ids = [f"speed_{s:g}" for s in SPEEDS] if is_speed else [f"theme_{t}" for t in (*THEMES, "system")]
         for id_ in ids:
             menu.addAction(self.actions_by_id[id_])
-        if menu.title() == "Theme":
+        if not is_speed:
             self._themes = QActionGroup(self)
             for id_ in ids:
                 self.actions_by_id[id_].setCheckable(True)
@@ -302,10 +309,11 @@ class Window(QMainWindow):
         """Nothing but the picture, on the whole screen; or everything as it was."""
         self._is_presenting = is_on
         if is_on:
-            self._before = (self.windowState(), [self._splitter.widget(k).isHidden() for k in (0, 2)], self._splitter.sizes())
+            hidden = [side.isHidden() for side in self._sides.values()]
+            self._before = (self.windowState(), hidden, self._splitter.sizes())
         was, hidden, sizes = self._before
-        for k, was_hidden in zip((0, 2), hidden, strict=True):
-            self._splitter.widget(k).setVisible(not is_on and not was_hidden)
+        for side, was_hidden in zip(self._sides.values(), hidden, strict=True):
+            side.setVisible(not is_on and not was_hidden)
         for part in (self.menuBar(), self.timeline, *self._hairlines):
             part.setVisible(not is_on)
         if is_on:
@@ -327,16 +335,16 @@ class Window(QMainWindow):
             self.resize(QSize(1440, 900).boundedTo(room))
         if (sizes := self.settings.value("panels")) is not None:
             self._splitter.restoreState(sizes)
-        for k, name in ((0, "contents"), (2, "details")):
-            self._splitter.widget(k).setHidden(self.settings.value(name, "shown") == "hidden")
-        self._wants_details = not self._splitter.widget(2).isHidden()
+        for name, side in self._sides.items():
+            side.setHidden(self.settings.value(name, "shown") == "hidden")
+        self._wants_details = not self._sides["details"].isHidden()
 
     def _keep(self) -> None:
         if self._is_presenting:
             return
         self.settings.setValue("geometry", self.saveGeometry())
         self.settings.setValue("panels", self._splitter.saveState())
-        self.settings.setValue("contents", "hidden" if self._splitter.widget(0).isHidden() else "shown")
+        self.settings.setValue("contents", "hidden" if self.contents.isHidden() else "shown")
         self.settings.setValue("details", "shown" if self._wants_details else "hidden")
         self.settings.sync()
 
@@ -355,7 +363,7 @@ class Window(QMainWindow):
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         if not self._is_presenting:
-            self._splitter.widget(2).setVisible(self._wants_details and event.size().width() >= NARROW)
+            self._sides["details"].setVisible(self._wants_details and event.size().width() >= NARROW)
         for sheet in self.sheets:
             sheet.setGeometry(self._body.rect())
 
@@ -382,21 +390,17 @@ def system_theme() -> str:
     return "dark" if QGuiApplication.styleHints().colorScheme() == Qt.ColorScheme.Dark else "light"
 
 
-def _column(*parts: QWidget) -> QWidget:
+def _column(*parts: QWidget, stretched: QWidget | None = None) -> QWidget:
     found = QWidget()
     column = QVBoxLayout(found)
     column.setContentsMargins(0, 0, 0, 0)
     column.setSpacing(0)
     for part in parts:
-        column.addWidget(part)
+        column.addWidget(part, 1 if part is stretched else 0)
     return found
 
 
 def _heading(text: str) -> QLabel:
-    from PySide6.QtGui import QFont
-
-    from app.gui.look import type_face
-
     label = QLabel(text)
     label.setFont(type_face(12, QFont.Weight.DemiBold))
     label.setContentsMargins(0, 0, 0, 4)
