@@ -36,7 +36,9 @@ CASES = {
     "holed grid": (CATMARK, EDGE, HOLED, {(12, 13): 1.25}, {}),
     "holed grid, corners": (CATMARK, EDGE_AND_CORNER, HOLED, {(7, 12): 2.75, (12, 17): 0.5}, {13: 1.25}),
     "octahedron": (LOOP, EDGE, OCTAHEDRON, {}, {}),
-    "octahedron, a crease loop of 1.25": (LOOP, EDGE, OCTAHEDRON, dict.fromkeys([(0, 2), (2, 1), (1, 3), (3, 0)], 1.25), {}),
+    "octahedron, a crease loop of 1.25": (
+        LOOP, EDGE, OCTAHEDRON, dict.fromkeys([(0, 2), (2, 1), (1, 3), (3, 0)], 1.25), {},
+    ),
     "octahedron, mixed creases": (
         LOOP, EDGE, OCTAHEDRON, {(0, 2): 0.5, (2, 1): 1.25, (1, 4): 2.75, (4, 0): 10, (4, 3): 0.75}, {5: 1.25},
     ),
