@@ -1,5 +1,8 @@
 """The caption and its formula, under the picture and large enough for the back row."""
 
+from functools import lru_cache
+from typing import TypeAlias
+
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
@@ -12,8 +15,14 @@ from app.gui.look import GRID, colour
 from app.gui.session import Session
 from app.state import State, stops
 
-SMALL, LARGE = 1 / 34, 1 / 25
+SMALL, LARGE = 1 / 34, 1 / 28
 """Size of the caption relative to the window's height, at a desk and when presenting."""
+
+LINE = 1.32
+"""From one baseline to the next."""
+
+Piece: TypeAlias = tuple[str, float, float, str]
+"""Type: its words, x from the middle, baseline, alignment."""
 
 HINT = "Space or PageDown: next stage"
 
@@ -40,7 +49,7 @@ class Narration(QWidget):
         size = self._size(state, window_height)
         tall = max(_laid(b.text, b.formula, size, width)[1] for b in state.lesson.beats)
         most = window_height // 3
-        return int(min(-(-(tall + 1.2 * size) // GRID) * GRID, most))
+        return int(min(-(-(tall + 1.1 * size) // GRID) * GRID, most))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         state = self._session.state
@@ -52,7 +61,7 @@ class Narration(QWidget):
         painter.fillRect(self.rect(), colour(theme.background))
         size = self._size(state, self.window().height())
         lines, tall = _laid(state.now.text, state.now.formula, size, self.width())
-        top = 0.3 * size + max(self.height() - 1.2 * size - tall, 0) / 2
+        top = 0.3 * size + max(self.height() - 1.1 * size - tall, 0) / 2
         for text, x, y, align in lines:
             type_(painter, Text(self.width() / 2 + x, top + y, text, size, theme.ink, align))
         if hint := self._hint(state):
@@ -70,19 +79,34 @@ class Narration(QWidget):
         return max(window_height * part, 19.0) * THEMES[state.options.theme].type
 
 
-def _laid(text: str, formula: str, size: float, width: float) -> tuple[list[tuple[str, float, float, str]], float]:
-    """Type as (text, x from the middle, baseline, alignment), and the height it takes."""
-    room = min(0.94 * width, 44 * size)
-    rows = wrapped(text, size, room)
-    found = [(row, 0.0, (0.98 + 1.32 * k) * size, "center") for k, row in enumerate(rows)]
-    tall = 1.32 * size * len(rows)
+@lru_cache(maxsize=512)
+def _laid(text: str, formula: str, size: float, width: float) -> tuple[tuple[Piece, ...], float]:
+    """The type of a beat and the height it takes.
+
+    The formula stands beside the caption where that leaves room for it in two lines, else below.
+    """
+    wide = measure(formula, size)[0] if formula else 0.0
+    rows = wrapped(text, size, max(0.94 * width - wide - 1.6 * size, 12 * size))
+    if formula and rows and len(rows) <= 2 and wide <= 0.4 * width:
+        return _beside(rows, formula, size)
+    return _below(wrapped(text, size, min(0.94 * width, 46 * size)), formula, size)
+
+
+def _below(rows: tuple[str, ...], formula: str, size: float) -> tuple[tuple[Piece, ...], float]:
+    tall = LINE * size * len(rows)
+    found = tuple((row, 0.0, (0.98 + LINE * k) * size, "center") for k, row in enumerate(rows))
     if not formula:
         return found, tall
+    _, ascent, descent = measure(formula, size)
+    return (*found, (formula, 0.0, tall + ascent, "center")), tall + ascent + descent + 0.1 * size
+
+
+def _beside(rows: tuple[str, ...], formula: str, size: float) -> tuple[tuple[Piece, ...], float]:
     wide, ascent, descent = measure(formula, size)
-    words = measure(rows[0], size)[0] if rows else 0.0
-    if len(rows) == 1 and words + 1.6 * size + wide <= 0.94 * width:  # beside
-        left, base = -(words + 1.6 * size + wide) / 2, max(0.98 * size, ascent)
-        return [(rows[0], left, base, "left"), (formula, left + words + 1.6 * size, base, "left")], max(
-            tall, ascent + descent + 0.1 * size
-        )
-    return [*found, (formula, 0.0, tall + ascent + 0.1 * size, "center")], tall + ascent + descent + 0.1 * size
+    block = max(measure(row, size)[0] for row in rows)
+    left = -(block + 1.6 * size + wide) / 2
+    tall = max(LINE * size * len(rows), ascent + descent)
+    top = (tall - LINE * size * len(rows)) / 2
+    found = tuple((row, left + block / 2, top + (0.98 + LINE * k) * size, "center") for k, row in enumerate(rows))
+    base = found[0][2] if len(rows) == 1 else (tall + ascent - descent) / 2
+    return (*found, (formula, left + block + 1.6 * size, base, "left")), max(tall, base + descent)

@@ -115,7 +115,7 @@ class Track(QWidget):
         theme = THEMES[state.options.theme]
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        axis, middle = axis_of(state), self.height() / 2
+        axis, middle = axis_of(state), self.height() / 2 + 1
         parts, now = segments(state.lesson), current(state)
         idle, done = mixed(theme.panel, theme.ink, 0.22), theme.accent
         taken = -1e9
@@ -129,7 +129,7 @@ class Track(QWidget):
             painter.drawLine(QPointF(right, middle - tall), QPointF(right, middle + tall))
             self._name(painter, s, colour(theme.ink if s is now else theme.muted), is_now=s is now)
             if s.ends_level and right - taken > 26:
-                self._word(painter, f"×{s.level}", right, middle + 24, colour(theme.ink), 12)
+                self._word(painter, f"×{s.level}", right, middle + 11, colour(theme.ink))
                 taken = right
         painter.setPen(QPen(colour(theme.panel), 2))
         painter.setBrush(colour(theme.ink))
@@ -155,16 +155,16 @@ class Track(QWidget):
         x = min(max((left + right - wide) / 2, 0.0), self.width() - wide)
         painter.setFont(face)
         painter.setPen(ink)
-        painter.drawText(QRectF(x, self.height() / 2 - 26, wide, 16), Qt.AlignmentFlag.AlignCenter, s.name)
+        painter.drawText(QRectF(x, self.height() / 2 - 24, wide, 16), Qt.AlignmentFlag.AlignCenter, s.name)
 
     def _has_room(self, face: QFont) -> bool:
         parts, wide = segments(self._session.state.lesson), QFontMetricsF(face).horizontalAdvance
         return all(wide(s.name) + 6 < self._x(s.end) - self._x(s.begin) for s in parts if s.name)
 
-    def _word(self, painter: QPainter, text: str, x: float, base: float, ink: QColor, size: int) -> None:
-        painter.setFont(type_face(size, QFont.Weight.DemiBold))
+    def _word(self, painter: QPainter, text: str, x: float, top: float, ink: QColor) -> None:
+        painter.setFont(type_face(12, QFont.Weight.DemiBold))
         painter.setPen(ink)
-        painter.drawText(QRectF(x - 30, base - 13, 60, 16), Qt.AlignmentFlag.AlignCenter, text)
+        painter.drawText(QRectF(x - 30, top, 60, 15), Qt.AlignmentFlag.AlignCenter, text)
 
 
 def current(state: State) -> Segment:
@@ -185,11 +185,11 @@ def spoken_speed(speed: float) -> str:
     return f"{speed:g}×"
 
 
-def tool_button(icon_name: str, theme: str) -> QToolButton:
+def tool_button(icon_name: str, theme: str, size: int = 32) -> QToolButton:
     """A flat button that keeps the focus where it is unless it is reached with Tab."""
     button = QToolButton()
     button.setIcon(icon(icon_name, theme))
-    button.setIconSize(QSize(20, 20))
-    button.setMinimumSize(QSize(32, 32))
+    button.setIconSize(QSize(size - 12, size - 12))
+    button.setFixedSize(QSize(size, size))
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     return button

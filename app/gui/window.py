@@ -17,6 +17,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import (
     QApplication,
     QFileDialog,
+    QHBoxLayout,
     QLabel,
     QMainWindow,
     QMenu,
@@ -84,7 +85,7 @@ class Window(QMainWindow):
         self.shown, self.why = Shown(session), Why()
         self._build()
         self.opener = Opener(session, self.banner)
-        self.sheets = (Keys(session, self._body), About(session, self._body))
+        self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
         self._views = (self.viewport, self.timeline, self.contents, self.shown, self.why)
@@ -222,8 +223,8 @@ class Window(QMainWindow):
         self.addAction(action)
         return action
 
-    def _button(self, id_: str) -> QToolButton:
-        button = tool_button(BY_ID[id_].icon, self.session.state.options.theme)
+    def _button(self, id_: str, size: int = 32) -> QToolButton:
+        button = tool_button(BY_ID[id_].icon, self.session.state.options.theme, size)
         button.setDefaultAction(self.actions_by_id[id_])
         button.setAccessibleName(BY_ID[id_].name)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
@@ -245,6 +246,13 @@ class Window(QMainWindow):
         self.setCentralWidget(self._body)
         for name, ids in MENUS:
             self._menu(self.menuBar().addMenu(name), ids)
+        corner = QWidget()
+        row = QHBoxLayout(corner)
+        row.setContentsMargins(0, 0, GRID // 2, 0)
+        row.setSpacing(0)
+        for id_ in ("contents", "shown", "present"):
+            row.addWidget(self._button(id_, 28))
+        self.menuBar().setCornerWidget(corner)
 
     def _details(self) -> QWidget:
         parts = (_heading("Shown"), self.shown, _gap(2 * GRID), _heading("Why is it here?"), self.why)
@@ -362,10 +370,11 @@ class Window(QMainWindow):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        if not self._is_presenting:
-            self._sides["details"].setVisible(self._wants_details and event.size().width() >= NARROW)
+        was, is_ = (size.width() >= NARROW if size.isValid() else None for size in (event.oldSize(), event.size()))
+        if was != is_ and not self._is_presenting:
+            self._sides["details"].setVisible(self._wants_details and bool(is_))
         for sheet in self.sheets:
-            sheet.setGeometry(self._body.rect())
+            sheet.setGeometry(self.rect())
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if any(Path(u.toLocalFile()).suffix.lower() in READABLE for u in event.mimeData().urls()):
