@@ -20,6 +20,12 @@ __all__ = ["Area", "Mark", "Plate", "Primitive", "Stroke", "Text", "extent", "fi
 # Sizes in logical points: thousandths of the picture's height.
 MARGIN, GAP = 26.0, 14.0
 TITLE, PANE_TITLE, CORNER, LEGEND, CAPTION, FORMULA, NOTE = 36.0, 27.0, 25.0, 25.0, 36.0, 36.0, 25.0
+TIGHT = 0.72
+"""... but in a box too small for it, where smaller type is better than type across the border."""
+
+FRAME = 1.4
+"""Width to height of what a camera must show; a narrower pane shows it smaller."""
+
 LINE = 1.3
 """From one baseline to the next, relative to the size of the type."""
 
@@ -73,10 +79,10 @@ def pane_areas(picture: Picture, width: float, height: float, words: bool = True
 
 def fitted(camera: Camera, area: Area) -> Camera:
     """The camera stepped back for a pane too narrow for it: what it shows at a usual shape stays visible."""
-    aspect = area[2] / area[3]
+    back = max(1.0, FRAME * area[3] / area[2])
     if camera.scale:
-        return replace(camera, scale=camera.scale * max(1.0, 1.5 / aspect))
-    tangent = np.tan(np.radians(camera.angle) / 2) * max(1.0, 1.04 / aspect)
+        return replace(camera, scale=camera.scale * back)
+    tangent = np.tan(np.radians(camera.angle) / 2) * back
     return replace(camera, angle=float(2 * np.degrees(np.arctan(tangent))))
 
 
@@ -143,7 +149,7 @@ def _caption(picture: Picture, width: float, height: float) -> tuple[list[Primit
             return found, y - max(ascent, size) - 0.6 * GAP * unit
         y -= descent
         found.append(Text(width / 2, y, picture.formula, formula, picture.ink, "center"))
-        y -= ascent + 0.12 * size
+        y -= ascent + 0.3 * size
     for line in reversed(lines):
         y -= 0.25 * size
         found.append(Text(width / 2, y, line, size, picture.ink, "center"))
@@ -213,7 +219,7 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
     links: list[Primitive] = [
         Stroke(
             x0 + cell * k.x0, y0 + cell * k.y0, x0 + cell * k.x1, y0 + cell * k.y1,
-            k.colour, k.width * unit, k.opacity,
+            k.colour, k.width * unit * picture.stroke, k.opacity,
         )
         for k in diagram.links
     ]  # fmt: skip
@@ -232,7 +238,7 @@ def _box_type(diagram: Diagram, cell: float, unit: float) -> float:
         if b.text:
             wide, ascent, descent = measure(b.text, 1.0)
             sizes += [0.86 * b.width * cell / wide, 0.94 * b.height * cell / (ascent + descent)]
-    return max(min(sizes), LEAST * unit)
+    return max(min(sizes), TIGHT * LEAST * unit)
 
 
 def _box(box: Box, x: float, y: float, cell: float, size: float, line: float) -> list[Primitive]:

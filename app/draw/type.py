@@ -61,9 +61,9 @@ def runs(text: str, bold: bool = False) -> tuple[Run, ...]:
 
 def wrapped(text: str, size: float, width: float, bold: bool = False) -> tuple[str, ...]:
     """Lines no wider than ``width``, of even lengths; a formula is never broken."""
-    words = _words(text)
-    if not words:
+    if not text.strip():
         return ()
+    words = _words(text)
     full = _broken(words, size, width, bold)
     low, high = width / 2, width
     for _ in range(8):  # the narrowest measure that needs no more lines: no short last line
@@ -79,14 +79,14 @@ def _broken(words: list[str], size: float, width: float, bold: bool) -> tuple[st
             lines[-1] += f" {word}"
         else:
             lines.append(word)
-    return tuple(lines)
+    return tuple(line.strip() for line in lines)
 
 
 def _words(text: str) -> list[str]:
     """Split at spaces, but not at those inside a formula."""
     found: list[str] = []
     inside = False
-    for piece in text.split():
+    for piece in text.strip().split(" "):  # of two spaces one stays with the word
         if inside:
             found[-1] += f" {piece}"
         else:

@@ -21,13 +21,24 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkGlyph3DMapper, vtkLight, vt
 from app.draw.geometry import dashes, facets
 from app.draw.picture import Camera, Colour, Faces, Lines, Markers, Scene, Shape
 from app.draw.primitives import Area
+from app.draw.solid import (
+    BEAD,
+    CUBE,
+    HALO_RADIUS,
+    HIDDEN,
+    LIGHTS,
+    MARKER_LIGHT,
+    OCTAHEDRON,
+    RING,
+    RING_AXIS,
+    SURFACE_LIGHT,
+    across,
+    dash_of,
+)  # fmt: skip
 from subdivision.arrays import Floats, Indices
 
-HIDDEN = 0.17
-"""How much of a hidden marker is seen."""
-
-DASH = 11.0
-"""Length of a dash in logical points, at the distance of the camera's focal point."""
+LIFT = 1.8
+"""How far markers are brought forward in the z-buffer, in radii of the largest."""
 
 SAMPLES = 8
 """Multisampling of stills."""
@@ -87,6 +98,9 @@ class ScenePainter:
             high = np.max([p.max(axis=0) for p in points], axis=0) + margin
             for renderer in (self.renderer, self._over):
                 renderer.ResetCameraClippingRange(low[0], high[0], low[1], high[1], low[2], high[2])
+            near, far = self.renderer.GetActiveCamera().GetClippingRange()
+            for glyphs in self._markers.values():
+                glyphs.lift(1 / (far - near))
 
     def place(self, area: Area, width: float, height: float) -> None:
         """Fill the pane ``area`` of a window of ``width`` by ``height`` pixels."""
@@ -120,12 +134,6 @@ def camera_of(renderer: Any) -> Camera:
     )  # fmt: skip
 
 
-def dash_of(camera: Camera) -> float:
-    """The length of a dash in space; it depends on the camera of the lesson, so it stays while the user turns."""
-    half = camera.scale or float(np.linalg.norm(camera.position - camera.focal)) * np.tan(np.radians(camera.angle) / 2)
-    return float(DASH / 1000 * 2 * half)
-
-
 # -- what is in a renderer --------------------------------------------------------------------
 
 
@@ -139,7 +147,7 @@ class _Surface:
         self.mapper.SetResolveCoincidentTopologyToPolygonOffset()
         self.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 4.0)
         self.actor.SetMapper(self.mapper)
-        _finish(self.actor, ambient=0.56, diffuse=0.52, specular=0.0)
+        _finish(self.actor, ambient=SURFACE_LIGHT[0], diffuse=SURFACE_LIGHT[1], specular=0.0)
         renderer.AddViewProp(self.actor)
 
     def show(self, faces: Faces) -> None:
@@ -179,11 +187,17 @@ class _Glyphs:
         self.drawn = [_Instances(_glyph(shape), translucent=not solid)]
         self.drawn += [_Instances(_sphere(HALO_RADIUS), rim=True)] if shape is Shape.HALO else []
         self.faint = _Instances(_glyph(shape), translucent=True)
+        self._largest = 0.0
 
     def join(self, renderer: Any, over: Any) -> None:
         for instances in self.drawn:
             renderer.AddViewProp(instances.actor)
         over.AddViewProp(self.faint.actor)
+
+    def lift(self, depth: float) -> None:
+        """Bring all forward by a little more than their size; ``depth`` is what a unit of space is in the z-buffer."""
+        for instances in self.drawn:
+            instances.uniforms.SetUniformf("lift", LIFT * self._largest * depth)
 
     def show(self, markers: Sequence[Markers], *, solid: bool) -> None:
         which = [(m.opacity >= 0.999) == solid for m in markers]
@@ -191,6 +205,7 @@ class _Glyphs:
         radius = [m.radius[w] for m, w in zip(markers, which, strict=True)]
         colour = [_rgba(m.colour, m.opacity[w]) for m, w in zip(markers, which, strict=True)]
         some = sum(map(len, points)) > 0
+        self._largest = max((float(r.max()) for r in radius if len(r)), default=0.0)
         for instances in (*self.drawn, self.faint):
             instances.actor.SetVisibility(some)
             if some:
@@ -217,9 +232,11 @@ class _Instances:
             self.actor.ForceTranslucentOn()
         else:
             self.actor.ForceOpaqueOn()
-        _finish(self.actor, ambient=0.45, diffuse=0.6, specular=0.22)
+        _finish(self.actor, ambient=MARKER_LIGHT[0], diffuse=MARKER_LIGHT[1], specular=0.2)
+        self.actor.GetProperty().BackfaceCullingOn()  # else the far side shines through the translucent ones
         if rim:
             _only_rim(self.actor)
+        self.uniforms = _lifted(self.actor)
 
     def show(self, points: Floats, radius: Floats, colour: Floats) -> None:
         self.data.SetPoints(_points(points))
@@ -252,7 +269,7 @@ def _light(renderer: Any) -> None:
     """A soft light over the left shoulder and a weak one from the right below; both go with the camera."""
     renderer.RemoveAllLights()
     renderer.AutomaticLightCreationOff()
-    for position, intensity in (((-0.55, 0.75, 1.0), 0.78), ((0.9, -0.35, 0.7), 0.26)):
+    for position, intensity in LIGHTS:
         light = vtkLight()
         light.SetLightTypeToCameraLight()
         light.SetPosition(*position)
@@ -272,30 +289,20 @@ def _finish(actor: Any, *, ambient: float, diffuse: float, specular: float) -> N
 
 # -- marker shapes, each about as heavy as a ball of radius 1 -----------------------------------
 
-HALO_RADIUS = 1.75
-
 
 @cache
 def _glyph(shape: Shape) -> Any:
     if shape is Shape.DIAMOND:
-        return _flat(1.28 * OCTAHEDRON, SIDES)
+        return _flat(OCTAHEDRON)
     if shape is Shape.CUBE:
-        quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
-        return _flat(0.84 * CUBE, [t for a, b, c, d in quads for t in ([a, b, c], [a, c, d])])
+        return _flat(CUBE)
     if shape is Shape.BEAD:
         both = vtkAppendPolyData()
-        both.AddInputData(_sphere(0.78))
-        both.AddInputData(_torus(1.55, 0.2))
+        both.AddInputData(_sphere(BEAD))
+        both.AddInputData(_torus(*RING))
         both.Update()
         return both.GetOutput()
     return _sphere(1.0)
-
-
-OCTAHEDRON = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
-SIDES = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
-CUBE = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], dtype=float)
-RING_AXIS = np.array([0.32, -0.42, 0.85])
-"""The ring of a bead leans, so that it reads as a ring from the side and from above."""
 
 
 def _sphere(radius: float) -> Any:
@@ -309,9 +316,7 @@ def _sphere(radius: float) -> Any:
 
 def _torus(radius: float, thickness: float) -> Any:
     axis = RING_AXIS / np.linalg.norm(RING_AXIS)
-    u = np.cross(axis, [1.0, 0.0, 0.0])
-    u /= np.linalg.norm(u)
-    v = np.cross(axis, u)
+    u, v = across(axis)
     n, m = 40, 10
     turns = np.arange(n) * 2 * np.pi / n, np.arange(m) * 2 * np.pi / m
     s, t = (x.ravel()[:, None] for x in np.meshgrid(*turns, indexing="ij"))
@@ -322,13 +327,10 @@ def _torus(radius: float, thickness: float) -> Any:
     return _poly(radius * out + thickness * normal, normal, np.vstack([np.stack([a, b, c], 1), np.stack([a, c, d], 1)]))
 
 
-def _flat(points: Floats, triangles: list[list[int]]) -> Any:
+def _flat(solid: Faces) -> Any:
     """A solid with flat sides."""
-    corners = points[np.array(triangles)]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal *= np.sign((normal * corners.mean(axis=1)).sum(axis=1, keepdims=True))
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    return _poly(corners.reshape(-1, 3), np.repeat(normal, 3, axis=0), np.arange(3 * len(corners)).reshape(-1, 3))
+    cut = facets(solid)
+    return _poly(cut.points, cut.normals, cut.triangles)
 
 
 def _poly(points: Floats, normals: Floats, triangles: Indices) -> Any:
@@ -350,6 +352,17 @@ def _only_rim(actor: Any) -> None:
         "  fragOutput0 = vec4(ambientColor / max(ambientIntensity, 1e-3), opacity * rim * 0.85);\n",
         False,
     )  # fmt: skip
+
+
+def _lifted(actor: Any) -> Any:
+    """Draw an actor a little nearer than it is, so that the surface it lies on does not cut it in halves."""
+    look = actor.GetShaderProperty()
+    look.AddFragmentShaderReplacement(
+        "//VTK::Depth::Impl", True, "//VTK::Depth::Impl\n  gl_FragDepth = max(gl_FragCoord.z - lift, 0.0);\n", False
+    )
+    uniforms = look.GetFragmentCustomUniforms()
+    uniforms.SetUniformf("lift", 0.0)
+    return uniforms
 
 
 # -- numpy to VTK, copied so that nothing dangles ----------------------------------------------

@@ -1,0 +1,187 @@
+"""A picture as pixels: panes in space from an off-screen window, everything flat painted over them by Agg.
+
+There is one off-screen window for the whole program; it changes its size but is not built anew.
+It needs no display: without one VTK is asked for EGL before it makes its first window.
+"""
+
+import os
+import sys
+from functools import cache
+from typing import Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import RendererAgg
+from matplotlib.path import Path as Outline
+from matplotlib.transforms import Affine2D
+from numpy.typing import NDArray
+
+from app.draw.flat import FLAT, Part, Polygon, Ring
+from app.draw.layout import fitted, overlay, pane_areas
+from app.draw.picture import Colour, Picture, Scene
+from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
+from app.draw.type import measure, path
+from subdivision.arrays import Floats
+
+HALO = 0.28
+"""Width of the rim that sets type off from what lies under it, relative to the size of the type."""
+
+Pixels = NDArray[np.uint8]
+"""(height, width, 4): red, green, blue, opacity."""
+
+_AGG: Any = RendererAgg
+_QUARTER = 0.5522847498307936
+"""How far a cubic's handle is from its end, for a quarter of a circle of radius 1."""
+
+
+def image(picture: Picture, width: int, height: int, *, transparent: bool = False, words: bool = True) -> Pixels:
+    """The picture at a size in pixels; ``words`` includes the caption."""
+    canvas = _AGG(width, height, 72)
+    pixels = np.asarray(canvas.buffer_rgba())
+    pixels[:] = (0, 0, 0, 0) if transparent else (*_bytes(picture.background), 255)
+    for pane, (x, y, w, h) in zip(picture.panes, pane_areas(picture, width, height, words), strict=True):
+        if isinstance(pane.content, Scene):
+            size = int(w), int(h)
+            seen = _studio().picture(pane.content, picture.background, size, height, transparent=transparent)
+            pixels[int(y) : int(y + h), int(x) : int(x + w)] = seen
+    brush = _Brush(canvas, height)
+    for each in overlay(picture, width, height, words=words):
+        brush.paint(each)
+    return pixels.copy()
+
+
+class _Studio:
+    """The off-screen window."""
+
+    def __init__(self) -> None:
+        if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+        import pyvista
+        from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+        from app.draw.vtk import SAMPLES, ScenePainter
+
+        self._plotter = pyvista.Plotter(off_screen=True, lighting="none", border=False)
+        window: Any = self._plotter.render_window
+        window.SetAlphaBitPlanes(1)
+        window.SetMultiSamples(SAMPLES)
+        self._window = window
+        self._painter = ScenePainter(self._plotter)
+        self._filter = vtkWindowToImageFilter
+
+    def picture(
+        self, scene: Scene, background: Colour, size: tuple[int, int], height: float, *, transparent: bool
+    ) -> Pixels:
+        """A scene alone; ``height`` is the whole picture's."""
+        self._window.SetSize(*size)
+        self._painter.background((0.0, 0.0, 0.0) if transparent else background)
+        self._painter.renderer.SetBackgroundAlpha(0.0 if transparent else 1.0)
+        self._painter.look(fitted(scene.camera, (0.0, 0.0, *size)))
+        self._painter.paint(scene, height)
+        self._window.Render()
+        pixels = self._grabbed(size)
+        if transparent:
+            return _unmultiplied(pixels)
+        pixels[..., 3] = 255
+        return pixels
+
+    def _grabbed(self, size: tuple[int, int]) -> Pixels:
+        from vtkmodules.util import numpy_support
+
+        to_numpy: Any = numpy_support.vtk_to_numpy
+        grab: Any = self._filter()
+        grab.SetInput(self._window)
+        grab.SetInputBufferTypeToRGBA()
+        grab.ReadFrontBufferOff()
+        grab.ShouldRerenderOff()
+        grab.Update()
+        flat = to_numpy(grab.GetOutput().GetPointData().GetScalars())
+        return np.array(flat.reshape(size[1], size[0], 4)[::-1], dtype=np.uint8)
+
+
+@cache
+def _studio() -> _Studio:
+    return _Studio()
+
+
+def _unmultiplied(pixels: Pixels) -> Pixels:
+    """Painted over transparent black, colours come darkened by their opacity: undone."""
+    alpha = pixels[..., 3:].astype(np.float32)
+    bright = pixels[..., :3] * np.divide(255.0, alpha, out=np.zeros_like(alpha), where=alpha > 0)
+    return np.asarray(np.concatenate([np.minimum(np.round(bright), 255), alpha], axis=2), dtype=np.uint8)
+
+
+class _Brush:
+    """Paints flat things; its y goes down, Agg's up."""
+
+    def __init__(self, canvas: Any, height: float) -> None:
+        self._canvas, self._height = canvas, height
+
+    def paint(self, each: Primitive) -> None:
+        match each:
+            case Text():
+                self._text(each)
+            case Plate():
+                shape = _rounded(each.x, each.y, each.width, each.height, each.radius)
+                self._draw(shape, each.fill, each.stroke, each.line, each.opacity)
+            case Stroke():
+                line = Outline([(each.x0, each.y0), (each.x1, each.y1)])
+                self._draw(line, None, each.colour, each.width, each.opacity, dashed=each.dashed)
+            case Mark():
+                self._mark(each)
+
+    def _text(self, text: Text) -> None:
+        shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * measure(text.text, text.size, text.bold)[0]
+        glyphs = path(text.text, text.size, text.bold)
+        placed = glyphs.transformed(Affine2D().scale(1, -1).translate(text.x - shift, text.y))
+        if text.halo is not None:
+            self._draw(placed, None, text.halo, HALO * text.size, text.opacity)
+        self._draw(placed, text.colour, None, 0.0, text.opacity)
+
+    def _mark(self, mark: Mark) -> None:
+        for part in FLAT[mark.shape]:
+            fill, stroke = (None, mark.colour) if isinstance(part, Ring) else (mark.colour, None)
+            line = part.width * mark.size if isinstance(part, Ring) else 0.0
+            self._draw(_placed(part, mark), fill, stroke, line, mark.opacity)
+
+    def _draw(
+        self, shape: Outline, fill: Colour | None, stroke: Colour | None, width: float, opacity: float,
+        *, dashed: bool = False,
+    ) -> None:  # fmt: skip
+        gc = self._canvas.new_gc()
+        gc.set_linewidth(width if stroke is not None else 0.0)
+        gc.set_foreground((*(stroke or (0.0, 0.0, 0.0)), opacity), isRGBA=True)
+        gc.set_joinstyle("round")
+        gc.set_capstyle("butt" if dashed else "round")
+        gc.set_antialiased(True)
+        gc.set_snap(False)
+        if dashed:
+            gc.set_dashes(0, [4 * width, 3 * width])
+        flip = Affine2D().scale(1, -1).translate(0, self._height)
+        self._canvas.draw_path(gc, shape, flip, (*fill, opacity) if fill is not None else None)
+        gc.restore()
+
+
+def _placed(part: Part, mark: Mark) -> Outline:
+    if isinstance(part, Polygon):
+        shape = Outline([*part.corners, part.corners[0]], closed=True)
+    else:
+        shape = Outline.circle(radius=part.radius)
+    return shape.transformed(Affine2D().scale(mark.size).translate(mark.x, mark.y))
+
+
+def _rounded(x: float, y: float, width: float, height: float, radius: float) -> Outline:
+    """A rectangle with round corners."""
+    r = min(radius, width / 2, height / 2)
+    k = r * (1 - _QUARTER)
+    corners: Floats = np.array([
+        (r, 0), (width - r, 0), (width - k, 0), (width, k), (width, r), (width, height - r), (width, height - k),
+        (width - k, height), (width - r, height), (r, height), (k, height), (0, height - k), (0, height - r), (0, r),
+        (0, k), (k, 0), (r, 0),
+    ])  # fmt: skip
+    codes = [1, 2, 4, 4, 4, 2, 4, 4, 4, 2, 4, 4, 4, 2, 4, 4, 4]
+    return Outline(corners + np.array([x, y]), codes)
+
+
+def _bytes(colour: Colour) -> tuple[int, int, int]:
+    r, g, b = (round(255 * c) for c in colour)
+    return r, g, b
