@@ -71,7 +71,6 @@ def application() -> QApplication:
     prepare()
     app = QApplication(sys.argv[:1])
     app.setApplicationName(NAME)
-    app.setOrganizationName("Subdivision Studio")
     app.setDesktopFileName("subdivision-studio")
     app.setStyle("Fusion")
     app.setWindowIcon(look.studio_icon())

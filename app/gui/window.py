@@ -246,7 +246,7 @@ class Window(QMainWindow):
         self.setCentralWidget(self._body)
         for name, ids in MENUS:
             self._menu(self.menuBar().addMenu(name), ids)
-        corner = QWidget()
+        corner = QWidget(self.menuBar())
         row = QHBoxLayout(corner)
         row.setContentsMargins(0, 0, GRID // 2, 0)
         row.setSpacing(0)
