@@ -6,7 +6,7 @@ from lessons.script import Beat, Look, fragment, lesson, play, show
 from subdivision import shapes, trace
 from subdivision.schemes import QUAD_CENTROID, tensor_product
 
-LOOK = Look(azimuth=-62.0, elevation=50.0)
+LOOK = Look(azimuth=-65.0, elevation=60.0)
 
 
 @lesson("Figure 12  Bicubic surfaces", section="3 Quadrilateral meshes",
@@ -22,17 +22,17 @@ def figure_12_bicubic() -> Iterator[Beat]:
     yield show(told, None, "(a) Original control points: one face of a larger net.", look=LOOK,
                claim=told.control.topology.n_vertices == 16)
     yield play(told, topology, "(b) New topology: a point on every edge and one on the face. The shape stays.",
-               look=LOOK, formula=r"$E = \frac{A+B}{2},\quad F = \frac{A+B+C+D}{4}$",
+               look=LOOK, formula=r"$E = \dfrac{A+B}{2},\quad F = \dfrac{A+B+C+D}{4}$",
                claim=not topology.moves and len(topology.born) == 24 + 9)
     yield play(told, centroids, "Mark the centroid of every small face: the green helpers, not vertices.", look=LOOK,
                claim=len(centroids.born) == topology.topology.n_faces)
     yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of the centroids around it.",
-               look=LOOK, formula=r"$Q \rightarrow \frac{1}{n} \sum_k C_k$",
+               look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$",
                notes="All centroids come from the mesh before it moves, and all vertices move together.",
                claim=geometry.moves and inside == 25)
     yield show(told, geometry, "A vertex reads nine points: 36, 6 and 1 sixty-fourths.", look=LOOK, span=3,
-               stencil=told.whole.stencil(vertex), formula=r"$\frac{36\,V + 6 \sum E_i + \sum F_i}{64}$",
+               stencil=told.whole.stencil(vertex), formula=r"$\dfrac{36\,V + 6 \sum E_i + \sum F_i}{64}$",
                claim=sorted(64 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 6, 6, 6, 6, 36])
     yield show(told, geometry, "An edge point reads six: 6 and 1 sixteenths.", look=LOOK, span=3,
-               stencil=told.whole.stencil(edge_point), formula=r"$\frac{6\,(A+B) + C + D + E + F}{16}$",
+               stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{6\,(A+B) + C + D + E + F}{16}$",
                claim=sorted(16 * told.whole.stencil(edge_point).weights) == [1, 1, 1, 1, 6, 6])

@@ -21,15 +21,15 @@ def figure_14_cube() -> Iterator[Beat]:
                claim=not topology.moves and topology.topology.n_faces == 24)
     yield play(told, centroids, "Mark the centroid of every new face.", claim=len(centroids.born) == 24)
     yield play(told, geometry, "Geometry: every vertex moves to the centroid of the centroids around it.",
-               formula=r"$Q \rightarrow \frac{1}{n} \sum_k C_k$", claim=geometry.moves)
+               formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves)
     yield show(told, geometry, "Why is the corner here? It keeps 27/48 of itself, takes 6/48 of each neighbour "
                "and 1/48 across each face.", stencil=row, span=3,
-               formula=r"$\frac{9}{16} V + \frac{6}{16n} \sum E_i + \frac{1}{16n} \sum F_i$",
+               formula=r"$\dfrac{9}{16} V + \dfrac{6}{16n} \sum E_i + \dfrac{1}{16n} \sum F_i$",
                notes="So the corner of a cube from -1 to 1 moves from 1 to 2/3.",
                claim=sorted(48 * row.weights) == [1, 1, 1, 6, 6, 6, 27])
     yield play(told, later[0], "Again: topology, centroids, geometry. New vertices always have valence 4.",
                until=later[2], claim=set(later[0].topology.valence[8:]) == {4})
     yield play(told, later[3], "And again. The eight extraordinary vertices move apart, surrounded by ordinary ones.",
                until=later[5], claim=int(told.mesh_at(9).surface.extraordinary.sum()) == 8)
-    yield show(told, later[5], "384 faces. Smooth everywhere: twice differentiable, but at the eight marked vertices only once.",
+    yield show(told, later[5], "384 faces, and the limit is C2, but at the eight marked vertices only C1.",
                claim=later[5].topology.n_faces == 384)

@@ -21,17 +21,17 @@ def figure_22_quartic() -> Iterator[Beat]:
     yield show(told, None, "(a) Original control points: two triangles that share an edge.", look=LOOK,
                claim=int((~control.hidden).sum()) == 2)
     yield play(told, topology, "(b) New topology: a point in the middle of every edge. No face points; each triangle "
-               "becomes four.", look=LOOK, formula=r"$E = \frac{A+B}{2}$",
+               "becomes four.", look=LOOK, formula=r"$E = \dfrac{A+B}{2}$",
                claim=not topology.moves and topology.topology.n_faces == 4 * control.n_faces)
     yield play(told, centroids, "Mark the weighted centroids: three in every small triangle, one for each corner.",
-               look=LOOK, formula=r"$C = \frac{2}{8} Q + \frac{3}{8} R + \frac{3}{8} S$",
+               look=LOOK, formula=r"$C = \dfrac{2}{8} Q + \dfrac{3}{8} R + \dfrac{3}{8} S$",
                notes="A weighted centroid belongs to one triangle and one of its corners; no other vertex may use it.",
                claim=len(centroids.born) == 3 * topology.topology.n_faces)
     yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of its own weighted centroids.",
-               look=LOOK, formula=r"$Q \rightarrow \frac{1}{n} \sum_k C_k$", claim=geometry.moves)
+               look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves)
     yield show(told, geometry, "A new edge point takes three eighths of each end, one eighth of each opposite corner.",
-               look=LOOK, span=3, stencil=told.whole.stencil(edge_point), formula=r"$\frac{3\,(A+B) + C + D}{8}$",
+               look=LOOK, span=3, stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{3\,(A+B) + C + D}{8}$",
                claim=sorted(8 * told.whole.stencil(edge_point).weights) == [1, 1, 3, 3])
     yield show(told, geometry, "A vertex keeps ten sixteenths and takes one of each neighbour.", look=LOOK, span=3,
-               stencil=told.whole.stencil(vertex), formula=r"$\frac{10\,V + \sum N_i}{16}$",
+               stencil=told.whole.stencil(vertex), formula=r"$\dfrac{10\,V + \sum N_i}{16}$",
                claim=sorted(16 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 1, 1, 10])

@@ -13,7 +13,7 @@ from app.draw.picture import Camera, Diagram, Entry, Faces, Label, Lines, Marker
 from app.draw.theme import NAMES, SHAPES, SIZES, THEMES, Theme
 from app.state import Options, State, level_of
 from lessons.script import Beat, Kind, Look, View
-from subdivision import Connectivity, Frame, Role, Stencil, Topology, Trace
+from subdivision import Connectivity, Frame, Polyline, Role, Stencil, Topology, Trace
 from subdivision.arrays import Floats, Mask
 from subdivision.exact import spelled_together
 from subdivision.rows import shown_faces
@@ -31,7 +31,10 @@ CROWDED = 0.17
 """... but no more than this part of the typical edge."""
 
 CORNERED = 0.55
-"""How much smaller helpers are where a face has one for every corner."""
+"""How much smaller helpers are, and without a ring, where a face has one for every corner."""
+
+MANY_ON_A_CURVE = 30
+"""The same on a polygon."""
 
 CONTRIBUTOR, POINTED_OUT = "contributor", "pointed out"
 """Names of the markers of a stencil."""
@@ -67,8 +70,8 @@ def compose(state: State) -> Picture:
 
 def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
     """One entry for each kind of point that is in the picture: the roles in order, then what is pointed out."""
-    there = {m.name for p in panes if isinstance(p.content, Scene) for m in p.content.markers if len(m.points)}
-    points = [Entry(SHAPES[r], theme.roles[r], NAMES[r]) for r in Role if NAMES[r] in there]
+    there = {m.name: m.shape for p in panes if isinstance(p.content, Scene) for m in p.content.markers if len(m.points)}
+    points = [Entry(there[NAMES[r]], theme.roles[r], NAMES[r]) for r in Role if NAMES[r] in there]
     if CONTRIBUTOR in there:
         points.append(Entry(Shape.SPHERE, theme.selection, CONTRIBUTOR))
     return tuple(points)
@@ -94,7 +97,7 @@ def scene(
     radius = _marker_radius(trace, frame)
     faint = _faint(frame)
     faces = _faces(frame, theme) if options.surface else ()
-    lines = (*_net(frame, theme, options), *_ghost(frame, theme, options))
+    lines = (*_net(frame, theme, options), *_ghost(frame, theme, options), *_belonging(frame, theme, options))
     markers = (*_ghost_markers(frame, theme, options, radius), *_markers(frame, theme, options, radius, faint))
     labels: tuple[Label, ...] = _numbers(frame, theme, options)
     if stencil is not None and options.weights:
@@ -125,7 +128,10 @@ def _content(state: State, view: View, theme: Theme) -> Scene | Diagram:
 
 
 def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:
+    """Side by side; a pyramid is wide, so it takes more than its half."""
     n = len(beat.views)
+    if any(v.kind is Kind.DIAGRAM and isinstance(v.trace.control.topology, Polyline) for v in beat.views):
+        return ((0.0, 0.0, 0.36, 1.0), (0.36, 0.0, 0.64, 1.0))[:n]
     columns = n if n <= 3 else (n + 1) // 2
     rows = -(-n // columns)
     return tuple(((k % columns) / columns, (k // columns) / rows, 1 / columns, 1 / rows) for k in range(n))
@@ -207,14 +213,29 @@ def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     new = frame.newborn[: t.n_vertices][ends].all(axis=1)
     sharp = _sharp(t)
     growth = float(frame.progress)
-    width = (3.2 if t.n_faces else 5.0) * (1.0 if len(ends) < 800 else 0.6) * theme.stroke
+    width = (3.2 if t.n_faces else 5.5) * (1.0 if len(ends) < 800 else 0.6) * theme.stroke
     parts = [
         Lines(points, ends[faint], theme.faint, 0.7 * width),
-        Lines(points, ends[~faint & ~new & ~sharp], theme.edge if t.n_faces else theme.net, width),
+        Lines(points, ends[~faint & ~new & ~sharp], theme.edge, width),
         Lines(points, ends[~faint & new & ~sharp], theme.edge, width, growth),
         Lines(points, ends[~faint & sharp], theme.ink, 2.2 * width),
     ]
     return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
+
+
+def _is_cornered(frame: Frame) -> bool:
+    """Whether the helpers are one to each corner of each face: weighted centroids."""
+    return 0 < len(frame.topology.origin) == len(frame.points) - frame.topology.n_vertices
+
+
+def _belonging(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
+    """A thin stroke from every weighted centroid to the corner it is for."""
+    if not options.helpers or not _is_cornered(frame):
+        return ()
+    t, n = frame.topology, frame.topology.n_vertices
+    shown = ~t.hidden[np.repeat(np.arange(t.n_faces), t.face_sizes)]
+    pairs = np.stack([t.origin, n + np.arange(len(t.origin))], axis=1)[shown]
+    return (Lines(frame.points, pairs, theme.roles[Role.CENTROID], 2.4 * theme.stroke, float(frame.progress)),)
 
 
 def _sharp(t: Connectivity) -> Mask:
@@ -255,19 +276,21 @@ def _markers(frame: Frame, theme: Theme, options: Options, radius: float, faint:
     if frame.stage is not None and not frame.stage.moves:
         roles = frame.roles
     size = np.array([SIZES[Role(r)] for r in range(len(Role))])[roles] * radius * motion.grown(frame.birth)
-    if len(size) > MANY and frame.progress == 1 and frame.stage is not None and frame.stage.moves:
+    many = MANY if frame.topology.n_faces else MANY_ON_A_CURVE
+    if len(size) > many and frame.progress == 1 and frame.stage is not None and frame.stage.moves:
         size = np.where(_extraordinary(frame), 1.6 * size, 0.0)
     found = []
     for role in Role:
         if role is Role.CENTROID and not options.helpers:
             continue
-        if role is Role.CENTROID and (roles == role).sum() > frame.topology.n_faces > 0:
-            size = CORNERED * size  # three to a triangle
         of = (roles == role) & ~faint & (size > 0)
+        shape, sizes = SHAPES[role], size[of]
+        if role is Role.CENTROID and _is_cornered(frame):
+            shape, sizes = Shape.SPHERE, CORNERED * sizes
         if of.any():
             ids = np.flatnonzero(of)
             found.append(Markers(
-                frame.points[of], SHAPES[role], theme.roles[role], size[of], np.ones(len(ids)), ids, NAMES[role],
+                frame.points[of], shape, theme.roles[role], sizes, np.ones(len(ids)), ids, NAMES[role],
             ))  # fmt: skip
     of = faint & (roles == Role.ORIGINAL) & (size > 0)
     if of.any():
@@ -288,12 +311,24 @@ def _extraordinary(frame: Frame) -> Mask:
 def _numbers(frame: Frame, theme: Theme, options: Options) -> tuple[Label, ...]:
     """Point numbers, or valences at vertices, where there are few enough to be read."""
     n = frame.topology.n_vertices
-    if n > FEW or not (options.labels or options.valences):
+    if n > FEW:
         return ()
+    if not (options.labels or options.valences):
+        return _copies(frame, theme)
     texts = [f"v{k}" if options.labels else "" for k in range(n)]
     if options.valences:
         texts = [f"{text} n={v}".strip() for text, v in zip(texts, frame.topology.valence, strict=True)]
     return tuple(Label(p, text, theme.ink) for p, text in zip(frame.points[:n], texts, strict=True))
+
+
+def _copies(frame: Frame, theme: Theme) -> tuple[Label, ...]:
+    """How many points lie on top of each other, where a split has put some and they have not parted yet."""
+    if frame.stage is None or frame.topology.n_vertices < len(frame.points) or isinstance(frame.topology, Topology):
+        return ()
+    _, first, counts = np.unique(np.round(frame.points, 9), axis=0, return_index=True, return_counts=True)
+    return tuple(
+        Label(frame.points[k], f"×{c}", theme.muted, 26.0) for k, c in zip(first, counts, strict=True) if c > 1
+    )
 
 
 def _pointed_out(

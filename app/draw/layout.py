@@ -20,11 +20,14 @@ __all__ = ["Area", "Mark", "Plate", "Primitive", "Stroke", "Text", "extent", "fi
 # Sizes in logical points: thousandths of the picture's height.
 MARGIN, GAP = 26.0, 14.0
 TITLE, PANE_TITLE, CORNER, LEGEND, CAPTION, FORMULA, NOTE = 36.0, 27.0, 25.0, 25.0, 36.0, 36.0, 25.0
-TIGHT = 0.72
+TIGHT = 0.6
 """... but in a box too small for it, where smaller type is better than type across the border."""
 
-FRAME = 1.4
+FRAME, FLAT_FRAME = 1.4, 1.55
 """Width to height of what a camera must show; a narrower pane shows it smaller."""
+
+APART = 1.4
+"""Between the caption and the formula beside it, relative to the caption's size."""
 
 LINE = 1.3
 """From one baseline to the next, relative to the size of the type."""
@@ -79,7 +82,7 @@ def pane_areas(picture: Picture, width: float, height: float, words: bool = True
 
 def fitted(camera: Camera, area: Area) -> Camera:
     """The camera stepped back for a pane too narrow for it: what it shows at a usual shape stays visible."""
-    back = max(1.0, FRAME * area[3] / area[2])
+    back = max(1.0, (FRAME if not camera.scale else FLAT_FRAME) * area[3] / area[2])
     if camera.scale:
         return replace(camera, scale=camera.scale * back)
     tangent = np.tan(np.radians(camera.angle) / 2) * back
@@ -128,33 +131,36 @@ def _head(picture: Picture, width: float, unit: float) -> tuple[list[Primitive],
 
 
 def _caption(picture: Picture, width: float, height: float) -> tuple[list[Primitive], float]:
-    """The caption centred at the bottom; the formula beside it if both fit on one line, else below."""
+    """The caption centred at the bottom; the formula beside it if it leaves room for two lines, else below.
+
+    There is always room for two lines, so that what is above stays in its place from step to step.
+    """
     unit = height / 1000
-    scale, margin = unit * picture.scale, MARGIN * unit
-    size, room = CAPTION * scale, min(width - 2 * margin, 1.72 * height)
-    lines = wrapped(picture.caption, size, room)
-    formula = _fitted_formula(picture.formula, FORMULA * scale, width - 2 * margin, LEAST * unit)
-    apart = 1.6 * size
-    y = height - 0.9 * margin
+    size, room = CAPTION * unit * picture.scale, min(width - 2 * MARGIN * unit, 1.72 * height)
+    formula = picture.formula.replace(r"\frac", r"\dfrac")
+    math = _fitted_formula(formula, FORMULA * unit * picture.scale, room, LEAST * unit)
+    wide, up, down = measure(formula, math) if math else (0.0, 0.0, 0.0)
+    narrow = room - wide - APART * size
+    beside = wrapped(picture.caption, size, narrow) if math and narrow > 8 * size else ()
+    is_beside = bool(beside) and len(beside) <= 2
+    lines = beside if is_beside else wrapped(picture.caption, size, room)
+    block = len(lines) * LINE * size
+    tall = max(block, up + down) if is_beside or not lines else block + (up + down + 0.2 * size if math else 0.0)
+    taken = max(tall, 2 * LINE * size)
+    top = height - (0.7 * MARGIN + 0.4 * GAP) * unit - taken
+    words = max((measure(line, size)[0] for line in lines), default=0.0)
+    middle = width / 2 - (wide + APART * size) / 2 if is_beside else width / 2
+    y = top + (taken - (block if is_beside else tall)) / 2
     found: list[Primitive] = []
-    if formula:
-        wide, ascent, descent = measure(picture.formula, formula)
-        beside = len(lines) == 1 and measure(lines[0], size)[0] + apart + wide <= width - 2 * margin
-        if beside:
-            total = measure(lines[0], size)[0] + apart + wide
-            y -= max(descent, 0.25 * size)
-            x = (width - total) / 2
-            found.append(Text(x, y, lines[0], size, picture.ink))
-            found.append(Text(x + total, y, picture.formula, formula, picture.ink, "right"))
-            return found, y - max(ascent, size) - 0.6 * GAP * unit
-        y -= descent
-        found.append(Text(width / 2, y, picture.formula, formula, picture.ink, "center"))
-        y -= ascent + 0.3 * size
-    for line in reversed(lines):
-        y -= 0.25 * size
-        found.append(Text(width / 2, y, line, size, picture.ink, "center"))
-        y -= (LINE - 0.25) * size
-    return found, y - 0.4 * GAP * unit
+    for line in lines:
+        found.append(Text(middle, y + 0.98 * size, line, size, picture.ink, "center"))
+        y += LINE * size
+    if math and is_beside:
+        x, base = middle + words / 2 + APART * size, top + (taken - up - down) / 2 + up
+        found.append(Text(x, base, formula, math, picture.ink))
+    elif math:
+        found.append(Text(width / 2, y + up + (0.2 * size if lines else 0.0), formula, math, picture.ink, "center"))
+    return found, top - 0.4 * GAP * unit
 
 
 def _fitted_formula(formula: str, size: float, room: float, least: float) -> float:
@@ -223,32 +229,42 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
         )
         for k in diagram.links
     ]  # fmt: skip
-    size = _box_type(diagram, cell, unit * picture.scale)
+    sizes = _box_types(diagram, cell, unit * picture.scale)
     line = 2 * unit * picture.stroke
-    boxes = [p for b in diagram.boxes for p in _box(b, x0 + cell * b.x, y0 + cell * b.y, cell, size, line)]
+    boxes = [
+        primitive
+        for b, size in zip(diagram.boxes, sizes, strict=True)
+        for primitive in _box(b, x0 + cell * b.x, y0 + cell * b.y, cell, size, line)
+    ]
     note_size = max(min(NOTE * unit * picture.scale, 0.5 * cell), LEAST * unit)
     notes = [_note(n, x0 + cell * n.x, y0 + cell * n.y, note_size, area, margin) for n in diagram.notes]
     return [*links, *boxes, *notes]
 
 
-def _box_type(diagram: Diagram, cell: float, unit: float) -> float:
-    """One size for all boxes, the largest at which each holds its words."""
-    sizes = [34 * unit]
-    for b in diagram.boxes:
-        if b.text:
-            wide, ascent, descent = measure(b.text, 1.0)
-            sizes += [0.86 * b.width * cell / wide, 0.94 * b.height * cell / (ascent + descent)]
-    return max(min(sizes), TIGHT * LEAST * unit)
+def _box_types(diagram: Diagram, cell: float, unit: float) -> list[float]:
+    """A size for each box at which it holds its words; short sums are not much larger than the longest one."""
+    room = [min(34 * unit, _room(b, cell)) for b in diagram.boxes]
+    return [max(min(each, 1.4 * min(room)), TIGHT * LEAST * unit) for each in room]
+
+
+def _room(box: Box, cell: float) -> float:
+    """The largest size at which a box holds its words."""
+    lines = box.text.splitlines()
+    tall = max([LINE * len(lines), *(sum(measure(line, 1.0)[1:]) for line in lines)])
+    wide = max((measure(line, 1.0)[0] for line in lines), default=0.0)
+    return min(0.94 * box.height * cell / tall, 0.9 * box.width * cell / max(wide, 1e-9))
 
 
 def _box(box: Box, x: float, y: float, cell: float, size: float, line: float) -> list[Primitive]:
     w, h = box.width * cell, box.height * cell
     plate = Plate(x - w / 2, y - h / 2, w, h, box.fill, box.stroke, line, 0.14 * min(w, h), box.opacity)
-    if not box.text:
-        return [plate]
-    _, ascent, descent = measure(box.text, size)
-    middle = (ascent - descent) / 2 if "$" in box.text else 0.36 * size
-    return [plate, Text(x, y + middle, box.text, size, box.ink, "center", opacity=box.opacity)]
+    lines = box.text.splitlines()
+    top = y + 0.36 * size - (len(lines) - 1) * LINE * size / 2
+    words = [
+        Text(x, top + k * LINE * size, text, size, box.ink, "center", opacity=box.opacity)
+        for k, text in enumerate(lines)
+    ]
+    return [plate, *words]
 
 
 def _note(note: Note, x: float, y: float, size: float, area: Area, margin: float) -> Text:

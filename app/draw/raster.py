@@ -98,9 +98,22 @@ class _Studio:
         return np.array(flat.reshape(size[1], size[0], 4)[::-1], dtype=np.uint8)
 
 
+    def close(self) -> None:
+        self._painter.close()
+        self._plotter.close()
+        self._window.Finalize()
+
+
 @cache
 def _studio() -> _Studio:
     return _Studio()
+
+
+def close() -> None:
+    """Give the off-screen window back; the next picture makes another.  Needed if the display ends before the program."""
+    if _studio.cache_info().currsize:
+        _studio().close()
+        _studio.cache_clear()
 
 
 def _unmultiplied(pixels: Pixels) -> Pixels:

@@ -98,9 +98,10 @@ class ScenePainter:
             high = np.max([p.max(axis=0) for p in points], axis=0) + margin
             for renderer in (self.renderer, self._over):
                 renderer.ResetCameraClippingRange(low[0], high[0], low[1], high[1], low[2], high[2])
-            near, far = self.renderer.GetActiveCamera().GetClippingRange()
+            camera = self.renderer.GetActiveCamera()
+            near, far = camera.GetClippingRange()
             for glyphs in self._markers.values():
-                glyphs.lift(1 / (far - near))
+                glyphs.lift(1 / (far - near), 1.0 - camera.GetParallelProjection())
 
     def place(self, area: Area, width: float, height: float) -> None:
         """Fill the pane ``area`` of a window of ``width`` by ``height`` pixels."""
@@ -185,7 +186,7 @@ class _Glyphs:
     def __init__(self, shape: Shape, *, solid: bool) -> None:
         self.shape = shape
         self.drawn = [_Instances(_glyph(shape), translucent=not solid)]
-        self.drawn += [_Instances(_sphere(HALO_RADIUS), rim=True)] if shape is Shape.HALO else []
+        self.drawn += [_Instances(_sphere(HALO_RADIUS, 56), rim=True)] if shape is Shape.HALO else []
         self.faint = _Instances(_glyph(shape), translucent=True)
         self._largest = 0.0
 
@@ -194,10 +195,14 @@ class _Glyphs:
             renderer.AddViewProp(instances.actor)
         over.AddViewProp(self.faint.actor)
 
-    def lift(self, depth: float) -> None:
-        """Bring all forward by a little more than their size; ``depth`` is what a unit of space is in the z-buffer."""
+    def lift(self, depth: float, perspective: float) -> None:
+        """Bring all forward by a little more than their size.
+
+        ``depth`` is what a unit of space is in the z-buffer; ``perspective`` is 0 in a parallel view, else 1.
+        """
         for instances in self.drawn:
             instances.uniforms.SetUniformf("lift", LIFT * self._largest * depth)
+            instances.uniforms.SetUniformf("perspective", perspective)
 
     def show(self, markers: Sequence[Markers], *, solid: bool) -> None:
         which = [(m.opacity >= 0.999) == solid for m in markers]
@@ -305,11 +310,11 @@ def _glyph(shape: Shape) -> Any:
     return _sphere(1.0)
 
 
-def _sphere(radius: float) -> Any:
+def _sphere(radius: float, resolution: int = 28) -> Any:
     source = vtkSphereSource()
     source.SetRadius(radius)
-    source.SetThetaResolution(28)
-    source.SetPhiResolution(20)
+    source.SetThetaResolution(resolution)
+    source.SetPhiResolution(2 * resolution // 3)
     source.Update()
     return source.GetOutput()
 
@@ -346,7 +351,8 @@ def _only_rim(actor: Any) -> None:
     actor.GetShaderProperty().AddFragmentShaderReplacement(
         "//VTK::Light::Impl", True,
         "//VTK::Light::Impl\n"
-        "  float facing = abs(normalVCVSOutput.z);\n"
+        "  vec3 toEye = mix(vec3(0.0, 0.0, 1.0), normalize(-vertexVCVSOutput.xyz), perspective);\n"
+        "  float facing = abs(dot(normalize(normalVCVSOutput), toEye));\n"
         "  float rim = 1.0 - smoothstep(0.48, 0.56, facing);\n"
         "  if (rim < 0.02) discard;\n"
         "  fragOutput0 = vec4(ambientColor / max(ambientIntensity, 1e-3), opacity * rim * 0.85);\n",
@@ -362,6 +368,7 @@ def _lifted(actor: Any) -> Any:
     )
     uniforms = look.GetFragmentCustomUniforms()
     uniforms.SetUniformf("lift", 0.0)
+    uniforms.SetUniformf("perspective", 0.0)
     return uniforms
 
 
