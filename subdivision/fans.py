@@ -56,10 +56,11 @@ def weighed(t: Topology, kinds: Indices, weights: Callable[[int, int], list[Corn
     vertices of kind 0 get nothing.
     """
     size = np.bincount(t.origin, minlength=t.n_vertices)
-    cases, case = np.unique(np.stack([kinds[t.origin], size[t.origin]], axis=1), axis=0, return_inverse=True)
-    tables = [weights(int(kind), int(n)) if kind else [NOTHING] for kind, n in cases]
+    base = int(size.max()) + 1
+    cases, case = np.unique((kinds * base + size)[t.origin], return_inverse=True)
+    tables = [weights(*divmod(int(key), base)) if key >= base else [NOTHING] for key in cases]
     begins = np.cumsum([0, *(len(table) for table in tables)])
-    entry = begins[case.ravel()] + np.where(kinds[t.origin] > 0, numbered(t), 0)
+    entry = begins[case] + np.where(kinds[t.origin] > 0, numbered(t), 0)
     entries = [corner for table in tables for corner in table]
     read = (t.origin, t.origin[t.next], t.origin[t.next[t.next]], t.origin[t.prev])
     parts = [

@@ -114,7 +114,8 @@ def levels_to_settle(scheme: Scheme, topology: Topology) -> int:
     """How many steps until the scheme's limit rules hold."""
     sharpness = np.concatenate([topology.edge_sharpness, topology.vertex_sharpness])
     wearing = ceil(float(sharpness[sharpness < INFINITELY_SHARP].max(initial=0.0)))
-    made = scheme.step(topology).topology.face_sizes[0]
+    first = topology.face_sizes[:1]
+    made = scheme.step(Topology.from_corners(first, np.arange(first[0]))).topology.face_sizes[0]
     return max(wearing, int((topology.face_sizes != made).any()))
 
 

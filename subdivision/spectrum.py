@@ -121,7 +121,7 @@ class Ring:
         if not self.is_smooth:
             return f"a tip remains: it shrinks by {self.cup:.5f}, no faster than its ring, {self.subdominant:.5f}"
         if abs(self.cup - square) <= 1e-12:
-            return f"bowls keep a curvature that is bounded and not zero: they shrink by {square:.5f}, as the ring squared"
+            return f"bowls keep a bounded curvature, not zero: they shrink by {square:.5f}, as the ring squared"
         if self.cup > square:
             return f"bowls are pinched: they shrink by {self.cup:.5f}, slower than the ring squared, {square:.5f}"
         return f"bowls flatten: they shrink by {self.cup:.5f}, faster than the ring squared, {square:.5f}"

@@ -34,6 +34,8 @@ CATALOGUE: dict[str, tuple[Vectors, int, int]] = {  # vectors, total degree, alp
     "three-direction quartic": (THREE_DIRECTION_QUARTIC, 4, 4),
     "three-direction degree 7": (THREE_DIRECTION_LINEAR * 3, 7, 6),
     "Zwart-Powell": (ZWART_POWELL, 2, 3),
+    "parallel of two lengths": (((1, 0), (0, 1), (0, 1), (2, 0)), 2, 2),
+    "parallel and opposite": (((1, 0), (0, 1), (1, 1), (-1, -1)), 2, 2),
     "one direction alone": (((1, 0), (1, 0), (0, 1)), 1, 1),
 }
 catalogue = pytest.mark.parametrize("name", CATALOGUE)

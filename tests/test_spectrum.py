@@ -126,7 +126,7 @@ def test_the_eigenvalues_are_those_of_the_table(n: int) -> None:
 @valences
 def test_loop_makes_the_cup_shrink_by_lambda_squared(n: int) -> None:
     assert ring(LOOP, n).cup == pytest.approx(ring(LOOP, n).subdominant ** 2, abs=1e-12)
-    assert "bounded and not zero" in ring(LOOP, n).reading
+    assert "bounded curvature, not zero" in ring(LOOP, n).reading
 
 
 def test_every_scheme_is_smooth_at_every_valence_but_centroid_averaging_of_triangles_at_three() -> None:
