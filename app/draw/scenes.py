@@ -1,0 +1,240 @@
+"""From an instant of a trace to a scene: surface, net, ghost, markers by role, and what is pointed out."""
+
+import numpy as np
+
+from app.draw import motion
+from app.draw.framing import camera
+from app.draw.picture import Faces, Label, Lines, Markers, Scene, Shape
+from app.draw.theme import NAMES, SHAPES, SIZES, Theme
+from app.state import Options
+from lessons.script import Look
+from subdivision import Connectivity, Frame, Role, Stencil, Topology, Trace
+from subdivision.arrays import Mask
+from subdivision.exact import spelled_together
+from subdivision.rows import shown_faces
+
+MARKER = 0.036
+"""Radius of an original point, relative to the radius of the control object."""
+
+CROWDED = 0.17
+"""... but no more than this part of the typical edge."""
+
+CORNERED = 0.55
+"""How much smaller helpers are, and without a ring, where a face has one for every corner."""
+
+MANY = 240
+"""Beyond so many points only extraordinary vertices are marked once the points have come to rest."""
+
+MANY_ON_A_CURVE = 30
+"""The same on a polygon, where none is extraordinary."""
+
+FEW = 60
+"""Up to so many points, ids and valences are written at them."""
+
+CONTRIBUTOR, POINTED_OUT = "contributor", "pointed out"
+"""Names of the markers of a stencil."""
+
+
+def scene(
+    frame: Frame, trace: Trace, look: Look, options: Options, theme: Theme, stencil: Stencil | None, span: int
+) -> Scene:
+    """One instant of a trace in space."""
+    radius = _marker_radius(trace, frame)
+    faint = _faint(frame)
+    faces = _faces(frame, theme) if options.surface else ()
+    lines = (*_net(frame, theme, options), *_ghost(frame, theme, options), *_belonging(frame, theme, options))
+    markers = (*_ghost_markers(frame, theme, options, radius), *_markers(frame, theme, options, radius, faint))
+    labels: tuple[Label, ...] = _numbers(frame, theme, options)
+    if stencil is not None and options.weights:
+        picked, rays, words = _pointed_out(frame, trace, stencil, span, theme, radius)
+        markers, lines, labels = (*markers, *picked), (*lines, *rays), (*labels, *words)
+    return Scene(camera(trace, look), faces, lines, markers, labels)
+
+
+def _marker_radius(trace: Trace, frame: Frame) -> float:
+    points = trace.control.points
+    size = float(np.linalg.norm(np.ptp(points, axis=0))) / 2
+    ends = frame.topology.ends
+    lengths = np.linalg.norm(frame.points[ends[:, 0]] - frame.points[ends[:, 1]], axis=1)
+    apart = lengths[lengths > 1e-6 * max(size, 1e-9)]
+    typical = float(np.median(apart)) if apart.size else size
+    return float(min(MARKER * size, CROWDED * typical))
+
+
+def _faint(frame: Frame) -> Mask:
+    """(n,) bool: points that only support the surface: every face round them is hidden."""
+    if not frame.topology.hidden.any():
+        return np.zeros(len(frame.points), dtype=np.bool_)
+    return ~np.concatenate([_shown_vertices(frame.topology), _shown_helpers(frame)])
+
+
+def _shown_vertices(t: Connectivity) -> Mask:
+    """(n_vertices,) bool: corners of faces that are not hidden; all of them where none is."""
+    shown = np.full(t.n_vertices, not t.hidden.any())
+    shown[shown_faces(t)[1]] = True
+    return shown
+
+
+def _shown_helpers(frame: Frame) -> Mask:
+    """A helper belongs to the face, or to the corner of a face, that has its number."""
+    t, helpers = frame.topology, len(frame.points) - frame.topology.n_vertices
+    face = np.arange(t.n_faces) if helpers == t.n_faces else np.repeat(np.arange(t.n_faces), t.face_sizes)
+    return np.asarray(~t.hidden[face]) if len(face) == helpers else np.ones(helpers, dtype=bool)
+
+
+def _faces(frame: Frame, theme: Theme) -> tuple[Faces, ...]:
+    t = frame.topology
+    sizes, corners = shown_faces(t)
+    return (Faces(frame.points[: t.n_vertices], sizes, corners, theme.surface),) if len(sizes) else ()
+
+
+def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
+    """The edges; those only hidden faces have are faint, those a stage brings grow in, sharp ones are heavy."""
+    if not options.net:
+        return ()
+    t = frame.topology
+    points, ends = frame.points[: t.n_vertices], t.ends
+    faint = _faint(frame)[: t.n_vertices][ends].any(axis=1)
+    new = frame.newborn[: t.n_vertices][ends].all(axis=1)
+    sharp = _sharp(t)
+    growth = float(frame.progress)
+    width = (3.2 if t.n_faces else 5.5) * (1.0 if len(ends) < 800 else 0.6) * theme.stroke
+    parts = [
+        Lines(points, ends[faint], theme.faint, 0.7 * width),
+        Lines(points, ends[~faint & ~new & ~sharp], theme.edge, width),
+        Lines(points, ends[~faint & new & ~sharp], theme.edge, width, growth),
+        Lines(points, ends[~faint & sharp], theme.ink, 2.2 * width),
+    ]
+    return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
+
+
+def _is_cornered(frame: Frame) -> bool:
+    """Whether the helpers are one to each corner of each face: weighted centroids."""
+    return 0 < len(frame.topology.origin) == len(frame.points) - frame.topology.n_vertices
+
+
+def _belonging(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
+    """A thin stroke from every weighted centroid to the corner it is for."""
+    if not options.helpers or not _is_cornered(frame):
+        return ()
+    t, n = frame.topology, frame.topology.n_vertices
+    shown = ~t.hidden[np.repeat(np.arange(t.n_faces), t.face_sizes)]
+    pairs = np.stack([t.origin, n + np.arange(len(t.origin))], axis=1)[shown]
+    return (Lines(frame.points, pairs, theme.roles[Role.CENTROID], 2.4 * theme.stroke, float(frame.progress)),)
+
+
+def _sharp(t: Connectivity) -> Mask:
+    """(n_edges,) bool: inner edges with a crease on them."""
+    return (t.edge_sharpness > 0) & ~t.boundary if isinstance(t, Topology) else np.zeros(t.n_edges, dtype=np.bool_)
+
+
+def _ghost(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
+    """What the stage began with, while and after points leave it."""
+    if not options.ghost or frame.stage is None or not frame.stage.moves or len(frame.points) > MANY:
+        return ()
+    before = frame.before
+    shown = _shown_vertices(before.topology)[before.topology.ends].all(axis=1)
+    return (Lines(before.points, before.topology.ends[shown], theme.net, 2.4 * theme.stroke, 0.7, dashed=True),)
+
+
+def _ghost_markers(frame: Frame, theme: Theme, options: Options, radius: float) -> tuple[Markers, ...]:
+    """Small faint marks where moving points came from, and what is leaving."""
+    if not options.ghost or frame.stage is None:
+        return ()
+    gone = len(frame.leaving)
+    marks = []
+    if gone and frame.progress < 1:
+        none = np.full(gone, -1)
+        size = np.array([SIZES[Role(r)] for r in frame.leaving_roles]) * radius
+        fade = np.full(gone, 1.0 - frame.progress)
+        for role in np.unique(frame.leaving_roles):
+            of = frame.leaving_roles == role
+            marks.append(Markers(
+                frame.leaving[of], SHAPES[Role(role)], theme.roles[Role(role)], size[of], fade[of], none[of],
+                NAMES[Role(role)],
+            ))  # fmt: skip
+    return tuple(marks)
+
+
+def _markers(frame: Frame, theme: Theme, options: Options, radius: float, faint: Mask) -> tuple[Markers, ...]:
+    """The points by role; a point that changes its role wears the new one from the middle of the stage on."""
+    roles = np.where(frame.progress < 0.5, frame.roles_before, frame.roles)
+    if frame.stage is not None and not frame.stage.moves:
+        roles = frame.roles
+    size = np.array([SIZES[Role(r)] for r in range(len(Role))])[roles] * radius * motion.grown(frame.birth)
+    many = MANY if frame.topology.n_faces else MANY_ON_A_CURVE
+    if len(size) > many and frame.progress == 1 and frame.stage is not None and frame.stage.moves:
+        size = np.where(_extraordinary(frame), 1.6 * size, 0.0)
+    found = []
+    for role in Role:
+        if role is Role.CENTROID and not options.helpers:
+            continue
+        of = (roles == role) & ~faint & (size > 0)
+        shape, sizes = SHAPES[role], size[of]
+        if role is Role.CENTROID and _is_cornered(frame):
+            shape, sizes = Shape.SPHERE, CORNERED * sizes
+        if of.any():
+            ids = np.flatnonzero(of)
+            found.append(Markers(
+                frame.points[of], shape, theme.roles[role], sizes, np.ones(len(ids)), ids, NAMES[role],
+            ))  # fmt: skip
+    of = faint & (roles == Role.ORIGINAL) & (size > 0)
+    if of.any():
+        found.append(Markers(
+            frame.points[of], Shape.SPHERE, theme.faint, 0.6 * size[of], np.ones(of.sum()), np.flatnonzero(of), "",
+        ))  # fmt: skip
+    return tuple(found)
+
+
+def _extraordinary(frame: Frame) -> Mask:
+    """(n,) bool: extraordinary vertices of a mesh."""
+    found = np.zeros(len(frame.points), dtype=np.bool_)
+    if isinstance(frame.topology, Topology):
+        found[: frame.topology.n_vertices] = frame.topology.extraordinary
+    return found
+
+
+def _numbers(frame: Frame, theme: Theme, options: Options) -> tuple[Label, ...]:
+    """Point numbers, or valences at vertices, where there are few enough to be read."""
+    n = frame.topology.n_vertices
+    if n > FEW:
+        return ()
+    if not (options.labels or options.valences):
+        return _copies(frame, theme)
+    texts = [f"v{k}" if options.labels else "" for k in range(n)]
+    if options.valences:
+        texts = [f"{text} n={v}".strip() for text, v in zip(texts, frame.topology.valence, strict=True)]
+    return tuple(Label(p, text, theme.ink) for p, text in zip(frame.points[:n], texts, strict=True))
+
+
+def _copies(frame: Frame, theme: Theme) -> tuple[Label, ...]:
+    """How many points lie on top of each other, where a split has put some and they have not parted yet."""
+    if frame.stage is None or frame.topology.n_vertices < len(frame.points) or isinstance(frame.topology, Topology):
+        return ()
+    _, first, counts = np.unique(np.round(frame.points, 9), axis=0, return_index=True, return_counts=True)
+    return tuple(
+        Label(frame.points[k], f"×{c}", theme.muted, 26.0) for k, c in zip(first, counts, strict=True) if c > 1
+    )
+
+
+def _pointed_out(
+    frame: Frame, trace: Trace, stencil: Stencil, span: int, theme: Theme, radius: float
+) -> tuple[list[Markers], list[Lines], list[Label]]:
+    """The point of a stencil, rays from its contributors, and the exact weight at each of them."""
+    k = trace.index(frame.stage) + 1 if frame.stage is not None else 0
+    parents = trace.points[max(k - span, 0)][stencil.parents]
+    point = frame.points[stencil.point]
+    weights = np.abs(stencil.weights)
+    size = radius * (0.7 + 1.1 * np.sqrt(weights / weights.max()))
+    none = np.full(len(parents), -1)
+    rings = Markers(parents, Shape.SPHERE, theme.selection, size, np.full(len(parents), 0.55), none, CONTRIBUTOR)
+    chosen = Markers(
+        point[None], Shape.HALO, theme.selection, np.array([1.5 * radius]), np.ones(1), none[:1], POINTED_OUT
+    )
+    ends = np.stack([np.arange(len(parents)), np.full(len(parents), len(parents))], axis=1)
+    rays = Lines(np.vstack([parents, point]), ends, theme.selection, 3.0 * theme.stroke, 0.8)
+    words = [
+        Label(p, text, theme.ink, 26.0)
+        for p, text in zip(parents, spelled_together([w for _, w in stencil.terms]), strict=True)
+    ]
+    return [rings, chosen], [rays], words
