@@ -110,7 +110,7 @@ def _studio() -> _Studio:
 
 
 def close() -> None:
-    """Give the off-screen window back; the next picture makes another.  Needed if the display ends before the program."""
+    """Give the off-screen window back, as is needed before its display ends; the next picture makes another."""
     if _studio.cache_info().currsize:
         _studio().close()
         _studio.cache_clear()
