@@ -4,7 +4,7 @@
 
 export SCREEN := $(or $(DISPLAY),$(WAYLAND_DISPLAY),$(filter Darwin,$(shell uname -s)))
 
-.PHONY: run test clean
+.PHONY: run test pictures clean
 
 run:
 	@.ci/setup run
@@ -18,6 +18,12 @@ endif
 test:
 	@.ci/setup test
 	@.ci/check
+
+pictures: # the README's, drawn again by the program
+	@.ci/setup run
+	@.venv/bin/python -m app figures 5 14 --steps --out build/pictures --size 1440x810
+	@mkdir -p assets/pictures
+	@cp build/pictures/figure_05_quadruple_then_average-03.png build/pictures/figure_14_cube-05.png assets/pictures
 
 clean:
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
