@@ -4,9 +4,10 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPolygonF
+from PySide6.QtGui import QPainter, QPainterPath, QPen, QPolygonF
 
-from app.draw.picture import Colour, Shape
+from app.draw.flat import FLAT, Polygon, Ring
+from app.draw.picture import Colour
 from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, outline
 from app.gui.look import colour
@@ -75,31 +76,15 @@ def glyphs(text: str, bold: bool = False) -> QPainterPath:
 
 def mark(painter: QPainter, mark: Mark) -> None:
     """A marker as it looks in the legend."""
-    r, ink = mark.size, colour(mark.colour, mark.opacity)
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(ink)
-    centre = QPointF(mark.x, mark.y)
-    match mark.shape:
-        case Shape.SPHERE:
-            painter.drawEllipse(centre, r, r)
-        case Shape.DIAMOND:
-            reach = 1.28 * r
-            corners = ((reach, 0), (0, reach), (-reach, 0), (0, -reach))
-            painter.drawPolygon(QPolygonF([centre + QPointF(x, y) for x, y in corners]))
-        case Shape.CUBE:
-            painter.drawRect(QRectF(mark.x - 0.9 * r, mark.y - 0.9 * r, 1.8 * r, 1.8 * r))
-        case Shape.BEAD:
-            painter.drawEllipse(centre, 0.7 * r, 0.7 * r)
-            _ring(painter, centre, 1.3 * r, 0.25 * r, ink)
-        case Shape.HALO:
-            painter.drawEllipse(centre, 0.85 * r, 0.85 * r)
-            _ring(painter, centre, 1.45 * r, 0.3 * r, ink)
-
-
-def _ring(painter: QPainter, centre: QPointF, radius: float, width: float, ink: QColor) -> None:
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.setPen(QPen(ink, width))
-    painter.drawEllipse(centre, radius, radius)
+    ink, centre = colour(mark.colour, mark.opacity), QPointF(mark.x, mark.y)
+    for part in FLAT[mark.shape]:
+        is_ring = isinstance(part, Ring)
+        painter.setPen(QPen(ink, part.width * mark.size) if isinstance(part, Ring) else Qt.PenStyle.NoPen)
+        painter.setBrush(Qt.BrushStyle.NoBrush if is_ring else ink)
+        if isinstance(part, Polygon):
+            painter.drawPolygon(QPolygonF([centre + QPointF(mark.size * x, mark.size * y) for x, y in part.corners]))
+        else:
+            painter.drawEllipse(centre, part.radius * mark.size, part.radius * mark.size)
 
 
 def _plate(painter: QPainter, plate: Plate) -> None:

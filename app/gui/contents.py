@@ -54,12 +54,13 @@ class Contents(QWidget):
         if state.lesson not in self._lessons:
             self._lessons.append(state.lesson)
             self._fill()
-        if self._shown is None or self._shown.lesson is not state.lesson:
+        was = self._shown
+        if was is None or was.lesson is not state.lesson:
             self.list.setCurrentIndex(self._index_of(state.lesson))
-        if self._shown is None or self._shown.options.theme != state.options.theme:
+            self.list.viewport().update()
+        if was is None or was.options.theme != state.options.theme:
             self._dress(state.options.theme)
         self._shown = state
-        self.list.viewport().update()
 
     def _dress(self, theme: str) -> None:
         for action in self.search.actions():

@@ -38,7 +38,6 @@ class Shown(QWidget):
     def show_state(self, state: State) -> None:
         for option, switch in self._switches.items():
             switch.setChecked(getattr(state.options, option))
-            switch.update()
 
 
 class Switch(QCheckBox):

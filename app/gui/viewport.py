@@ -4,6 +4,7 @@ It contains a ``QtInteractor`` and sees all its input first.  VTK gets none of i
 ``Turn``, a value, so no hot key can fire and all panes stay linked.
 """
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -127,6 +128,16 @@ class Viewport(QWidget):
             self._turn.of(fitted(pane.content.camera, area)) if isinstance(pane.content, Scene) else None
             for pane, area in zip(self._picture.panes, self.areas(), strict=True)
         ]
+
+    def picture(self) -> Picture:
+        """The picture as it is seen now: from where the hand has turned it."""
+        panes = (
+            replace(pane, content=replace(pane.content, camera=self._turn.of(pane.content.camera)))
+            if isinstance(pane.content, Scene)
+            else pane
+            for pane in self._picture.panes
+        )
+        return replace(self._picture, panes=tuple(panes))
 
     def paint_flat(self, painter: QPainter) -> None:
         """Everything of the picture that is not in space."""

@@ -3,6 +3,7 @@
 from html import escape
 
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from app.draw.compose import stencil_of
@@ -30,6 +31,8 @@ class Why(QWidget):
         self._words.setMinimumHeight(20 * GRID)
         self._counts = [(QLabel(), QLabel(name)) for name in ("V", "E", "F", "χ")]
         self._level = QLabel()
+        for quiet in (self._level, *(name for _, name in self._counts)):
+            quiet.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         self._about: tuple[object, ...] = ()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -57,11 +60,9 @@ class Why(QWidget):
         topology = state.trace(view).topology_at(int(view.at(state.progress)))
         euler = topology.euler if topology.n_faces else "–"
         numbers = (topology.n_vertices, topology.n_edges, topology.n_faces or "–", euler)
-        for (number, name), value in zip(self._counts, numbers, strict=True):
+        for (number, _), value in zip(self._counts, numbers, strict=True):
             number.setText(str(value).replace("-", "−"))
-            name.setStyleSheet(f"color: {muted}")
         self._level.setText(f"Level {level_of(state)}")
-        self._level.setStyleSheet(f"color: {muted}")
 
 
 def _explained(state: State, stencil: Stencil | None, muted: str) -> str:

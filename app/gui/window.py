@@ -30,6 +30,7 @@ from PySide6.QtWidgets import (
 
 import lessons
 from app.draw.theme import THEMES
+from app.gui import saving
 from app.gui.banner import Banner
 from app.gui.contents import Contents
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
@@ -180,21 +181,22 @@ class Window(QMainWindow):
 
     def save_picture(self) -> None:
         suggested = str(Path(self._folder("pictures")) / f"{self.session.state.lesson.id}.png")
-        path, _ = QFileDialog.getSaveFileName(self, "Save the picture", suggested, "Pictures (*.png)")
+        path, _ = QFileDialog.getSaveFileName(self, "Save the picture", suggested, "PNG (*.png);;SVG (*.svg)")
         if path:
             self.settings.setValue("folder_pictures", str(Path(path).parent))
             self.save_picture_to(path)
 
     def save_picture_to(self, path: str) -> None:
-        """Write what the viewport shows."""
-        target = path if Path(path).suffix else f"{path}.png"
-        if self.viewport.grab().save(target):
-            self.banner.tell(f"Saved {target}")
+        """Write what the viewport shows, finer than on the screen."""
+        try:
+            written = saving.save(self.viewport.picture(), Path(path), self.viewport.size())
+        except saving.SavingError as fault:
+            self.banner.say(str(fault))
         else:
-            self.banner.say(f"{target} could not be written; choose another folder or end the name in .png.")
+            self.banner.tell(f"Saved {written}")
 
     def copy_picture(self) -> None:
-        QGuiApplication.clipboard().setPixmap(self.viewport.grab())
+        QGuiApplication.clipboard().setImage(saving.image(self.viewport.picture(), self.viewport.size()))
         self.banner.tell("The picture is on the clipboard.")
 
     def quit(self) -> None:
@@ -391,6 +393,7 @@ class Window(QMainWindow):
         QApplication.instance().removeEventFilter(self._guard)  # type: ignore[union-attr]
         self._keep()
         self.viewport.close_vtk()
+        saving.close()
         super().closeEvent(event)
 
 

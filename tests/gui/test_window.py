@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QKeySequence
+from PySide6.QtGui import QImage, QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
@@ -305,3 +305,22 @@ def test_searching_and_enter_open_a_lesson_from_the_keyboard(qtbot, window):
     QTest.keyClicks(window.contents.search, wanted.id)
     press(window, Key.Key_Return)
     assert window.session.state.lesson is wanted
+
+
+def test_a_saved_picture_is_finer_than_the_screen_and_the_window_goes_on(qtbot, window, tmp_path):
+    window.session.do(choose, speed=8.0)
+    qtbot.wait(600)  # until it is smooth
+    seen = window.viewport.grab().toImage()
+    window.save_picture_to(str(tmp_path / "cube"))
+    window.save_picture_to(str(tmp_path / "cube.svg"))
+    assert QImage(str(tmp_path / "cube.png")).width() >= 1920
+    assert "<svg" in (tmp_path / "cube.svg").read_text()
+    assert "Saved" in window.banner.words.text()
+    window.save_picture_to(str(tmp_path / "cube.xyz"))
+    assert ".png" in window.banner.words.text()
+    press(window, Key.Key_Escape)
+    qtbot.wait(600)
+    assert window.viewport.grab().toImage() == seen
+    press(window, Key.Key_PageDown)
+    rested(qtbot, window)
+    assert window.viewport.grab().toImage() != seen

@@ -1,0 +1,64 @@
+"""The picture as it is seen now, in a file or on the clipboard."""
+
+import sys
+from pathlib import Path
+
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QImage, QOpenGLContext
+
+from app.draw.picture import Picture
+
+WIDTH = 1920
+"""Pixels: a saved picture is at least so wide, and at least twice as fine as on the screen."""
+
+SUFFIXES = (".png", ".svg")
+
+
+class SavingError(Exception):
+    """Why a picture was not saved, in a sentence for the user."""
+
+
+def save(picture: Picture, path: Path, seen: QSize) -> Path:
+    """Write a picture ``seen`` at a size; the suffix chooses, PNG where there is none.
+
+    Raises
+    ------
+    SavingError
+        If it cannot be written there.
+    """
+    path = path if path.suffix else path.with_suffix(".png")
+    if path.suffix.lower() not in SUFFIXES:
+        raise SavingError(f"Pictures end in {' or '.join(SUFFIXES)}, not in {path.suffix}: choose another name.")
+    if path.suffix.lower() == ".png":
+        if not image(picture, seen).save(str(path)):
+            raise SavingError(f"{path} could not be written: choose another folder.")
+        return path
+    from app.draw.vector import svg
+
+    try:
+        path.write_text(svg(picture, *_size(seen)), encoding="utf-8")
+    except OSError as fault:
+        raise SavingError(f"{path} could not be written ({fault.strerror}): choose another folder.") from fault
+    return path
+
+
+def image(picture: Picture, seen: QSize) -> QImage:
+    """The picture at a size for slides, with its caption."""
+    from app.draw import raster
+
+    pixels = raster.image(picture, *_size(seen))
+    if (context := QOpenGLContext.currentContext()) is not None:
+        context.doneCurrent()  # the off-screen window has taken its place without Qt's knowledge
+    height, width = pixels.shape[:2]
+    return QImage(pixels.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBA8888).copy()
+
+
+def close() -> None:
+    """Give the off-screen window back, if there is one, before the display goes."""
+    if "app.draw.raster" in sys.modules:
+        sys.modules["app.draw.raster"].close()
+
+
+def _size(seen: QSize) -> tuple[int, int]:
+    scale = max(2.0, WIDTH / max(seen.width(), 1))
+    return round(scale * seen.width()), round(scale * seen.height())
