@@ -237,7 +237,7 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
         for primitive in _box(b, x0 + cell * b.x, y0 + cell * b.y, cell, size, line)
     ]
     note_size = max(min(NOTE * unit * picture.scale, 0.5 * cell), LEAST * unit)
-    notes = [_note(n, x0 + cell * n.x, y0 + cell * n.y, note_size, area, margin) for n in diagram.notes]
+    notes = [t for n in diagram.notes for t in _note(n, x0 + cell * n.x, y0 + cell * n.y, note_size, area, margin)]
     return [*links, *boxes, *notes]
 
 
@@ -267,9 +267,13 @@ def _box(box: Box, x: float, y: float, cell: float, size: float, line: float) ->
     return [plate, *words]
 
 
-def _note(note: Note, x: float, y: float, size: float, area: Area, margin: float) -> Text:
-    """Words that stay inside their pane."""
-    text = Text(x, y + 0.36 * size, note.text, size, note.colour, note.align, opacity=note.opacity)
-    left, _, wide, _ = extent(text)
-    most = area[0] + area[2] - 0.3 * margin - wide
-    return replace(text, x=x + max(area[0] + 0.3 * margin, min(left, most)) - left)
+def _note(note: Note, x: float, y: float, size: float, area: Area, margin: float) -> list[Primitive]:
+    """Words that stay inside their pane: on two lines or more where there is not room for one."""
+    left, right = area[0] + 0.3 * margin, area[0] + area[2] - 0.3 * margin
+    room = {"left": right - x, "right": x - left, "center": 2 * min(x - left, right - x)}[note.align]
+    lines = wrapped(note.text, size, max(room, size))
+    top = y + 0.36 * size - (len(lines) - 1) * LINE * size / 2
+    return [
+        Text(x, top + k * LINE * size, line, size, note.colour, note.align, opacity=note.opacity)
+        for k, line in enumerate(lines)
+    ]
