@@ -65,9 +65,9 @@ class ScenePainter:
         for renderer in (self.renderer, self._over):
             _light(renderer)
 
-    def paint(self, scene: Scene, height: float, stroke: float = 1.0) -> None:
+    def paint(self, scene: Scene, height: float) -> None:
         """Show ``scene``; ``height`` in pixels is the whole picture's, so that strokes scale with it."""
-        point = height / 1000 * stroke
+        point = height / 1000
         self.renderer.SetUseDepthPeeling(any(f.opacity < 1 for f in scene.faces))
         for faces, surface in _pooled(scene.faces, self._faces, _Surface, self.renderer):
             surface.show(faces)

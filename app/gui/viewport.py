@@ -163,7 +163,7 @@ class Viewport(QWidget):
         panes = zip(self._picture.panes, self.areas(), self.cameras(), strict=True)
         shown = [(pane.content, area, camera) for pane, area, camera in panes if camera is not None]
         for painter, (content, area, camera) in zip(self._painters, shown, strict=False):
-            painter.paint(content, self._tall() * self.devicePixelRatioF(), self._picture.stroke)
+            painter.paint(content, self._tall() * self.devicePixelRatioF())
             painter.background(self._picture.background)
             painter.place(area, width, height)
             painter.look(camera)
