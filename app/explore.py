@@ -66,11 +66,12 @@ def _beats(told: Trace, levels: int) -> Iterator[Beat]:
 
 
 def _limits(told: Trace, levels: int) -> str:
-    """What was left out, and why."""
+    """What is played, and what was left out and why."""
     if levels == LEVELS:
         return f"{told.scheme.title}, {LEVELS} levels."
-    how = "one level" if levels else "no level"
-    return f"{told.scheme.title}: {how} only, since more would exceed {BUDGET:,} faces."
+    if levels:
+        return f"{told.scheme.title}, one level: two would exceed {BUDGET:,} faces."
+    return f"It is shown as it is: one level would exceed {BUDGET:,} faces."
 
 
 def _said(stage: Stage, level: int, told: Trace) -> str:

@@ -18,6 +18,9 @@ from app.state import State, stops
 SMALL, LARGE = 1 / 34, 1 / 28
 """Size of the caption relative to the window's height, at a desk and when presenting."""
 
+HINT_ROOM = 0.5
+"""Relative to the size of the caption."""
+
 LINE = 1.32
 """From one baseline to the next."""
 
@@ -47,7 +50,8 @@ class Narration(QWidget):
         """Room for every beat of the lesson, on the grid."""
         state = self._session.state
         size = self._size(state, window_height)
-        tall = max(_laid(b.text, b.formula, size, width)[1] for b in state.lesson.beats)
+        heights = [_laid(b.text, b.formula, size, width)[1] for b in state.lesson.beats]
+        tall = max(heights[0] + HINT_ROOM * size, *heights)
         most = window_height // 3
         return int(min(-(-(tall + 1.1 * size) // GRID) * GRID, most))
 
@@ -61,7 +65,8 @@ class Narration(QWidget):
         painter.fillRect(self.rect(), colour(theme.background))
         size = self._size(state, self.window().height())
         lines, tall = _laid(state.now.text, state.now.formula, size, self.width())
-        top = 0.3 * size + max(self.height() - 1.1 * size - tall, 0) / 2
+        room = self.height() - 1.1 * size - (HINT_ROOM * size if self._hint(state) else 0.0)
+        top = 0.3 * size + max(room - tall, 0) / 2
         for text, x, y, align in lines:
             type_(painter, Text(self.width() / 2 + x, top + y, text, size, theme.ink, align))
         if hint := self._hint(state):
@@ -72,6 +77,8 @@ class Narration(QWidget):
     def _hint(self, state: State) -> str:
         """What to do first, until it has been done."""
         first = stops(state.lesson)[0]
+        if len(stops(state.lesson)) == 1:
+            return ""
         return HINT if (state.beat, state.at) == (first.beat, first.at) and not state.is_playing else ""
 
     def _size(self, state: State, window_height: int) -> float:

@@ -26,6 +26,7 @@ class Opener(QObject):
         super().__init__(session)
         self._session, self._banner = session, banner
         self._job: _Job | None = None
+        self._running: set[_Job] = set()  # a job must outlive its run, wanted or not
         self._patience = QTimer(self, singleShot=True, interval=PATIENCE)
         self._patience.timeout.connect(self._announce)
 
@@ -36,6 +37,8 @@ class Opener(QObject):
     def open(self, path: str) -> None:
         self._forget()
         self._job = _Job(Path(path))
+        self._running.add(self._job)
+        self._job.told.over.connect(self._running.discard)
         self._job.told.done.connect(self._done)
         self._job.told.failed.connect(self._failed)
         self._patience.start()
@@ -65,6 +68,7 @@ class Opener(QObject):
 class _Told(QObject):
     done = Signal(object, object)
     failed = Signal(object, str)
+    over = Signal(object)
 
 
 class _Job(QRunnable):
@@ -83,3 +87,5 @@ class _Job(QRunnable):
         except Exception:
             LOG.exception("reading %s", self.path)
             self.told.failed.emit(self, f"{self.path.name} could not be opened; the log has the details.")
+        finally:
+            self.told.over.emit(self)

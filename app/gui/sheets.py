@@ -1,5 +1,7 @@
 """Sheets that lie over the window: the keys, and what the program is."""
 
+from importlib.metadata import PackageNotFoundError, version
+
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
@@ -14,7 +16,7 @@ COLUMNS = (("Lesson",), ("View", "Present"), ("File", "Edit", "Help", "Mouse"))
 ABOUT = (
     "Subdivision Studio",
     "Watch subdivision curves and surfaces happen, one topological or geometric stage at a time.",
-    "Version {version}. MIT licence; the typeface Inter under the SIL Open Font License.",
+    "{version}MIT licence; the typeface Inter under the SIL Open Font License.",
     "Built on Python, numpy, scipy, VTK, PyVista, matplotlib and Qt.",
 )
 
@@ -116,15 +118,21 @@ class About(Sheet):
     """What the program is."""
 
     def paint_sheet(self, painter: QPainter, theme: Theme) -> None:
-        from importlib.metadata import version
-
-        room = self.board(painter, theme, 560, 240)
+        room = self.board(painter, theme, 560, 200)
         y = room.top()
         for k, text in enumerate(ABOUT):
             painter.setFont(type_face(22 if k == 0 else 14, QFont.Weight.DemiBold if k == 0 else QFont.Weight.Normal))
             painter.setPen(colour(theme.ink if k < 2 else theme.muted))
-            words = text.format(version=version("subdivision-studio"))
+            words = text.format(version=_version())
             where = QRectF(room.left(), y, room.width(), 60)
             flags = Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextWordWrap
             y += painter.boundingRect(where, flags, words).height() + 12
             painter.drawText(where, flags, words)
+
+
+def _version() -> str:
+    """As installed; run from a folder the program has none."""
+    try:
+        return f"Version {version('subdivision-studio')}. "
+    except PackageNotFoundError:
+        return ""

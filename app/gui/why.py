@@ -40,12 +40,13 @@ class Why(QWidget):
         column.addWidget(self._words, 1)
         column.addWidget(self._level)
         grid = QGridLayout()
-        grid.setSpacing(0)
+        grid.setHorizontalSpacing(GRID)
+        grid.setVerticalSpacing(4)
         for k, (number, name) in enumerate(self._counts):
-            number.setFont(type_face(18))
-            grid.addWidget(name, 0, k)
-            grid.addWidget(number, 1, k)
-            grid.setColumnStretch(k, 1)
+            number.setFont(type_face(16))
+            grid.addWidget(name, k // 2, 2 * (k % 2))
+            grid.addWidget(number, k // 2, 2 * (k % 2) + 1)
+            grid.setColumnStretch(2 * (k % 2) + 1, 1)
         column.addLayout(grid)
 
     def show_state(self, state: State) -> None:
@@ -61,7 +62,7 @@ class Why(QWidget):
         euler = topology.euler if topology.n_faces else "–"
         numbers = (topology.n_vertices, topology.n_edges, topology.n_faces or "–", euler)
         for (number, _), value in zip(self._counts, numbers, strict=True):
-            number.setText(str(value).replace("-", "−"))
+            number.setText((f"{value:,}" if isinstance(value, int) else str(value)).replace("-", "−"))
         self._level.setText(f"Level {level_of(state)}")
 
 

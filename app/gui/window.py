@@ -218,6 +218,7 @@ class Window(QMainWindow):
         action.setShortcuts([QKeySequence(key) for key in command.keys])
         action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
         action.setAutoRepeat(command.repeats)
+        action.setIconVisibleInMenu(False)
         action.setCheckable(command.on is not None)
         keys = ", ".join(spelled_keys(command))
         action.setToolTip(f"{command.name} ({keys})" if keys else command.name)

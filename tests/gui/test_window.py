@@ -1,19 +1,23 @@
 """Journeys through the real window, by the keys and the mouse that users have."""
 
+import sys
+import threading
 from dataclasses import fields
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, Qt, qInstallMessageHandler
 from PySide6.QtGui import QImage, QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.draw.theme import THEMES
+from app.gui.application import catch_everything
 from app.gui.keys import COMMANDS, spelled_keys
 from app.gui.sheets import rows
 from app.state import axis_of, choose, forward, segments, stops, toggle
 from lessons import all_lessons
+from subdivision import shapes
 
 pytestmark = pytest.mark.window
 Key = Qt.Key
@@ -324,3 +328,48 @@ def test_a_saved_picture_is_finer_than_the_screen_and_the_window_goes_on(qtbot, 
     press(window, Key.Key_PageDown)
     rested(qtbot, window)
     assert window.viewport.grab().toImage() != seen
+
+
+def test_help_says_what_the_program_is_and_a_click_puts_it_away(window):
+    window.actions_by_id["about"].trigger()
+    assert not window.sheets[1].grab().toImage().isNull()
+    QTest.mouseClick(window.sheets[1], Qt.MouseButton.LeftButton)
+    assert not window.sheets[1].isVisible()
+
+
+def test_a_long_read_says_so_and_can_be_cancelled(qtbot, window, tmp_path, monkeypatch):
+    done = threading.Event()
+
+    def slow(path):
+        done.wait(5)
+        return shapes.cube()
+
+    monkeypatch.setattr("app.gui.opening.read", slow)
+    before = values(window.session.state)
+    window.open_file(str(tmp_path / "large.obj"))
+    qtbot.waitUntil(lambda: "large.obj" in window.banner.words.text(), timeout=2000)
+    press(window, Key.Key_PageDown)  # the window is not held up
+    rested(qtbot, window)
+    press(window, Key.Key_PageUp)
+    rested(qtbot, window)
+    QTest.mouseClick(window.banner._cancel, Qt.MouseButton.LeftButton)
+    assert not window.banner.isVisible()
+    done.set()
+    qtbot.waitUntil(lambda: not window.opener._running, timeout=2000)
+    assert values(window.session.state) == before
+
+
+def test_an_uncaught_fault_is_a_sentence_in_the_window_and_its_traceback_is_logged(
+    window, tmp_path, monkeypatch, caplog
+):
+    monkeypatch.setattr("sys.excepthook", None)
+    catch_everything(window, tmp_path / "studio.log")
+    qInstallMessageHandler(None)
+    try:
+        raise ZeroDivisionError("a bug")
+    except ZeroDivisionError as fault:
+        sys.excepthook(type(fault), fault, fault.__traceback__)
+    assert "went wrong" in window.banner.words.text()
+    assert "studio.log" in window.banner.words.text()
+    assert "ZeroDivisionError" not in window.banner.words.text()
+    assert "ZeroDivisionError: a bug" in caplog.text

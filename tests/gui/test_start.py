@@ -1,0 +1,75 @@
+"""Starting without a window: no screen, no such lesson; and what needs no screen at all."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from app.draw.picture import Camera
+from app.explore import BUDGET, affordable, explored, natural_scheme
+from app.gui.turn import REST
+from subdivision import shapes
+from subdivision.schemes import CATMULL_CLARK, QUAD_CENTROID, TRIANGLE_CENTROID
+
+SPACE = Camera(np.array([3.0, -4.0, 2.0]), np.zeros(3), np.array([0.0, 0.0, 1.0]))
+PLANE = Camera(np.array([0.0, 0.0, 10.0]), np.zeros(3), np.array([0.0, 1.0, 0.0]), scale=2.0)
+
+
+@pytest.mark.parametrize("display", ["", ":987"])
+def test_without_a_screen_there_is_one_plain_sentence(display):
+    hidden = {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}
+    env = {k: v for k, v in os.environ.items() if k not in hidden} | {"DISPLAY": display}
+    done = subprocess.run([sys.executable, "-m", "app"], env=env, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert "no screen" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("mesh", "scheme"),
+    [(shapes.cube(), QUAD_CENTROID), (shapes.octahedron(), TRIANGLE_CENTROID)],
+)
+def test_a_mesh_gets_the_scheme_that_suits_its_faces(mesh, scheme):
+    lesson = explored(mesh, "mine")
+    assert natural_scheme(mesh) is scheme
+    assert [b.lead.trace.scheme for b in lesson.beats[:1]] == [scheme]
+    assert lesson.beats[-1].stop == len(lesson.beats[0].lead.trace.stages) == 6
+    assert all(beat.text for beat in lesson.beats)
+
+
+def test_a_mesh_beyond_the_budget_is_played_for_fewer_levels_and_says_so():
+    net = shapes.cube()
+    for levels in (2, 1, 0):
+        faces = BUDGET // 4**levels
+        counted = type("Counted", (), {"n_faces": faces})()
+        assert affordable(type("Mesh", (), {"topology": counted})(), QUAD_CENTROID) == levels
+    assert affordable(net, CATMULL_CLARK) == 2
+
+
+def test_no_turn_leaves_the_camera_where_the_lesson_put_it():
+    for camera in (SPACE, PLANE):
+        seen = REST.of(camera)
+        points = np.array([[0.3, 0.2, 0.1], [-1.0, 0.5, 0.4]])
+        assert np.allclose(seen.project(points, 800, 600), camera.project(points, 800, 600))
+
+
+def test_rotating_keeps_the_distance_and_the_vertical_and_never_the_plane():
+    turned = REST.rotated(0.2, 0.1).of(SPACE)
+    assert np.linalg.norm(turned.position) == pytest.approx(np.linalg.norm(SPACE.position))
+    assert turned.up[2] > 0
+    assert np.allclose(REST.rotated(0.2, 0.1).of(PLANE).position, PLANE.position)
+    assert np.arcsin(REST.rotated(0, 5.0).of(SPACE).position[2] / np.linalg.norm(SPACE.position)) < np.pi / 2
+
+
+@pytest.mark.parametrize("camera", [SPACE, PLANE])
+def test_panning_and_zooming_keep_what_is_under_the_mouse_under_it(camera):
+    height = 600.0
+    moved = REST.panned(30 / height, 40 / height).of(camera).project(np.zeros((1, 3)), 800, height)[0]
+    assert moved[:2] == pytest.approx([430, 340])
+    at = camera.focal + 0.2 * np.cross(camera.focal - camera.position, camera.up) / 10
+    x, y, _ = camera.project(at[None], 800, height)[0]
+    zoomed = REST.zoomed(1.7, (x - 400) / height, (y - 300) / height).of(camera)
+    assert zoomed.project(at[None], 800, height)[0][:2] == pytest.approx([x, y])
