@@ -25,8 +25,9 @@ from PySide6.QtWidgets import QApplication
 
 from app.draw.theme import THEMES
 from app.gui import look
+from app.gui.look import system_theme
 from app.gui.session import Session
-from app.gui.window import NAME, Window, system_theme
+from app.gui.window import NAME, Window
 from app.state import Options, State, open_lesson, start
 from lessons import all_lessons, find
 from lessons.script import Lesson

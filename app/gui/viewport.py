@@ -7,7 +7,6 @@ It contains a ``QtInteractor`` and sees all its input first.  VTK gets none of i
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent, QWheelEvent
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
@@ -20,15 +19,13 @@ from app.draw.primitives import Area
 from app.gui.brush import paint
 from app.gui.look import colour
 from app.gui.narration import Narration
+from app.gui.pointing import nearest
 from app.gui.session import Session
 from app.gui.turn import REST, Turn
 from app.state import State, look
 
 PANES = 4
 """How many panes the viewport has renderers for."""
-
-REACH = 14.0
-"""How near to a marker the mouse must be to mean it, in pixels."""
 
 CALM = 160
 """Milliseconds without change after which a software-drawn picture is smoothed."""
@@ -276,17 +273,7 @@ class Viewport(QWidget):
         pane, area, camera = self._picture.panes[0], self.areas()[0], self.cameras()[0]
         if camera is None or not isinstance(pane.content, Scene) or self._state.is_playing:
             return None
-        found = [(m.points, m.ids) for m in pane.content.markers if (m.ids >= 0).any()]
-        if not found:
-            return None
-        points, ids = (np.concatenate(each) for each in zip(*found, strict=True))
-        flat = camera.project(points, area[2], area[3]) + np.array([area[0] - at.x(), area[1] - at.y(), 0.0])
-        apart = np.where(ids >= 0, np.hypot(flat[:, 0], flat[:, 1]), np.inf)
-        near = np.flatnonzero(apart < REACH)
-        if not near.size:
-            return None
-        clear = near[apart[near] < apart[near].min() + 4]
-        return int(ids[clear[np.argmin(flat[clear, 2])]])
+        return nearest(pane.content, camera, area, at.x(), at.y())
 
     # -- Qt's own -------------------------------------------------------------------------------
 

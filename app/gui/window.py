@@ -5,11 +5,9 @@ from pathlib import Path
 from PySide6.QtCore import QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
     QAction,
-    QActionGroup,
     QCloseEvent,
     QDragEnterEvent,
     QDropEvent,
-    QFont,
     QGuiApplication,
     QKeySequence,
     QResizeEvent,
@@ -18,31 +16,29 @@ from PySide6.QtWidgets import (
     QApplication,
     QFileDialog,
     QHBoxLayout,
-    QLabel,
     QMainWindow,
-    QMenu,
     QScrollArea,
     QSplitter,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
 import lessons
 from app.draw.theme import THEMES
-from app.gui import saving
+from app.gui import menus, saving
 from app.gui.banner import Banner
 from app.gui.contents import Contents
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
-from app.gui.look import GRID, colour, dress, icon, line_of, type_face
+from app.gui.look import GRID, colour, dress, icon, line_of, system_theme
 from app.gui.opening import Opener
+from app.gui.parts import column, gap, heading
 from app.gui.session import Session
 from app.gui.sheets import About, Keys
-from app.gui.shown import SHOWN, Shown
-from app.gui.timeline import SPEEDS, Timeline, tool_button
+from app.gui.shown import Shown
+from app.gui.timeline import Timeline, tool_button
 from app.gui.viewport import Viewport
 from app.gui.why import Why
-from app.state import State, choose, open_lesson
+from app.state import State, choose
 from subdivision.files import READABLE
 
 NAME = "Subdivision Studio"
@@ -51,16 +47,6 @@ LEFT, RIGHT = 200, 200
 
 NARROW = 1100
 """Below this width the right panel waits behind its button."""
-
-MENUS = (
-    ("File", ("open", "", "save", "copy", "", "quit")),
-    ("Edit", ("undo", "redo")),
-    ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "", "camera", "contents", "shown")),
-    ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "through",
-                "@Speed", "", "search", "@Lessons")),
-    ("Present", ("present", "blank")),
-    ("Help", ("keys", "about")),
-)  # fmt: skip
 
 
 class Window(QMainWindow):
@@ -206,10 +192,6 @@ class Window(QMainWindow):
         """Tell of something that went wrong, where the user looks."""
         self.banner.say(sentence)
 
-    def open_lesson(self, lesson: object) -> None:
-        if lesson is not self.session.state.lesson:
-            self.session.do(open_lesson, lesson)
-
     # -- building -------------------------------------------------------------------------------
 
     def _action(self, id_: str) -> QAction:
@@ -236,7 +218,7 @@ class Window(QMainWindow):
     def _build(self) -> None:
         self._is_presenting, self._wants_details = False, True
         self._hairlines: list[QWidget] = []
-        middle = _column(self.banner, self.viewport, self._hairline(), self.timeline, stretched=self.viewport)
+        middle = column(self.banner, self.viewport, self._hairline(), self.timeline, stretched=self.viewport)
         self._sides = {"contents": self.contents, "details": self._details()}
         self._splitter = QSplitter(Qt.Orientation.Horizontal)
         self._splitter.setHandleWidth(1)
@@ -245,10 +227,9 @@ class Window(QMainWindow):
         self._splitter.setStretchFactor(1, 1)
         self._splitter.setCollapsible(1, False)
         self._splitter.setSizes([LEFT, 10_000, RIGHT])
-        self._body = _column(self._hairline(), self._splitter, stretched=self._splitter)
+        self._body = column(self._hairline(), self._splitter, stretched=self._splitter)
         self.setCentralWidget(self._body)
-        for name, ids in MENUS:
-            self._menu(self.menuBar().addMenu(name), ids)
+        menus.fill(self)
         corner = QWidget(self.menuBar())
         row = QHBoxLayout(corner)
         row.setContentsMargins(0, 0, GRID // 2, 0)
@@ -258,8 +239,8 @@ class Window(QMainWindow):
         self.menuBar().setCornerWidget(corner)
 
     def _details(self) -> QWidget:
-        parts = (_heading("Shown"), self.shown, _gap(2 * GRID), _heading("Why is it here?"), self.why)
-        inside = _column(*parts, stretched=self.why)
+        parts = (heading("Shown"), self.shown, gap(2 * GRID), heading("Why is it here?"), self.why)
+        inside = column(*parts, stretched=self.why)
         inside.setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)
         scroll = QScrollArea(widgetResizable=True)
         scroll.setWidget(inside)
@@ -273,46 +254,6 @@ class Window(QMainWindow):
         line.setFixedHeight(1)
         self._hairlines.append(line)
         return line
-
-    def _menu(self, menu: QMenu, ids: tuple[str, ...]) -> None:
-        for id_ in ids:
-            if not id_:
-                menu.addSeparator()
-            elif id_.startswith("@"):
-                self._submenu(menu.addMenu(id_[1:]))
-            else:
-                menu.addAction(self.actions_by_id[id_])
-
-    def _submenu(self, menu: QMenu) -> None:
-        if menu.title() == "Lessons":
-            menu.aboutToShow.connect(lambda: self._list_lessons(menu))
-            return
-        is_speed = menu.title() == "Speed"
-        ids = [f"speed_{s:g}" for s in SPEEDS] if is_speed else [f"theme_{t}" for t in (*THEMES, "system")]
-        for id_ in ids:
-            menu.addAction(self.actions_by_id[id_])
-        if not is_speed:
-            self._themes = QActionGroup(self)
-            for id_ in ids:
-                self.actions_by_id[id_].setCheckable(True)
-                self._themes.addAction(self.actions_by_id[id_])
-            menu.aboutToShow.connect(lambda: self.actions_by_id[f"theme_{self._theme_choice()}"].setChecked(True))
-        else:
-            menu.addSeparator()
-            for id_ in ("faster", "slower"):
-                menu.addAction(self.actions_by_id[id_])
-
-    def _list_lessons(self, menu: QMenu) -> None:
-        menu.clear()
-        section = ""
-        for lesson in lessons.all_lessons():
-            if lesson.section != section:
-                section = lesson.section
-                menu.addSection(section)
-            action = menu.addAction(lesson.title)
-            action.setCheckable(True)
-            action.setChecked(lesson is self.session.state.lesson)
-            action.triggered.connect(lambda _, lesson=lesson: self.open_lesson(lesson))
 
     # -- the window itself ----------------------------------------------------------------------
 
@@ -362,11 +303,12 @@ class Window(QMainWindow):
     def _folder(self, kind: str) -> str:
         return str(self.settings.value(f"folder_{kind}", str(Path.home())))
 
-    def _theme_choice(self) -> str:
+    def theme_choice(self) -> str:
+        """The theme as it was chosen: perhaps the system's."""
         return str(self.settings.value("theme", self._theme))
 
     def _follow_system(self) -> None:
-        if self._theme_choice() == "system":
+        if self.theme_choice() == "system":
             self.session.do(choose, theme=system_theme())
 
     # -- Qt's own -------------------------------------------------------------------------------
@@ -396,31 +338,3 @@ class Window(QMainWindow):
         self.viewport.close_vtk()
         saving.close()
         super().closeEvent(event)
-
-
-def system_theme() -> str:
-    """The theme the desktop asks for."""
-    return "dark" if QGuiApplication.styleHints().colorScheme() == Qt.ColorScheme.Dark else "light"
-
-
-def _column(*parts: QWidget, stretched: QWidget | None = None) -> QWidget:
-    found = QWidget()
-    column = QVBoxLayout(found)
-    column.setContentsMargins(0, 0, 0, 0)
-    column.setSpacing(0)
-    for part in parts:
-        column.addWidget(part, 1 if part is stretched else 0)
-    return found
-
-
-def _heading(text: str) -> QLabel:
-    label = QLabel(text)
-    label.setFont(type_face(12, QFont.Weight.DemiBold))
-    label.setContentsMargins(0, 0, 0, 4)
-    return label
-
-
-def _gap(height: int) -> QWidget:
-    gap = QWidget()
-    gap.setFixedHeight(height)
-    return gap

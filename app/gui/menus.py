@@ -1,0 +1,75 @@
+"""The menus: commands by their names, and nothing that does nothing."""
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtGui import QActionGroup
+from PySide6.QtWidgets import QMenu
+
+import lessons
+from app.draw.theme import THEMES
+from app.gui.shown import SHOWN
+from app.gui.timeline import SPEEDS
+from app.state import open_lesson
+
+if TYPE_CHECKING:
+    from app.gui.window import Window
+
+MENUS = (
+    ("File", ("open", "", "save", "copy", "", "quit")),
+    ("Edit", ("undo", "redo")),
+    ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "", "camera", "contents", "shown")),
+    ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "through",
+                "@Speed", "", "search", "@Lessons")),
+    ("Present", ("present", "blank")),
+    ("Help", ("keys", "about")),
+)  # fmt: skip
+"""Title -> commands; a gap is a line, and ``@`` begins a menu inside."""
+
+
+def fill(window: "Window") -> None:
+    """Hang all menus into the window's menu bar."""
+    inside = {"@Theme": _themes, "@Speed": _speeds, "@Lessons": _lessons}
+    for name, ids in MENUS:
+        menu = window.menuBar().addMenu(name)
+        for id_ in ids:
+            if not id_:
+                menu.addSeparator()
+            elif id_ in inside:
+                inside[id_](window, menu.addMenu(id_[1:]))
+            else:
+                menu.addAction(window.actions_by_id[id_])
+
+
+def _themes(window: "Window", menu: QMenu) -> None:
+    group = QActionGroup(menu)
+    for name in (*THEMES, "system"):
+        action = window.actions_by_id[f"theme_{name}"]
+        action.setCheckable(True)
+        group.addAction(action)
+        menu.addAction(action)
+    menu.aboutToShow.connect(lambda: window.actions_by_id[f"theme_{window.theme_choice()}"].setChecked(True))
+
+
+def _speeds(window: "Window", menu: QMenu) -> None:
+    for speed in SPEEDS:
+        menu.addAction(window.actions_by_id[f"speed_{speed:g}"])
+    menu.addSeparator()
+    for id_ in ("faster", "slower"):
+        menu.addAction(window.actions_by_id[id_])
+
+
+def _lessons(window: "Window", menu: QMenu) -> None:
+    menu.aboutToShow.connect(lambda: _list_lessons(window, menu))
+
+
+def _list_lessons(window: "Window", menu: QMenu) -> None:
+    menu.clear()
+    section = ""
+    for lesson in lessons.all_lessons():
+        if lesson.section != section:
+            section = lesson.section
+            menu.addSection(section)
+        action = menu.addAction(lesson.title)
+        action.setCheckable(True)
+        action.setChecked(lesson is window.session.state.lesson)
+        action.triggered.connect(lambda _, lesson=lesson: window.session.do(open_lesson, lesson))
