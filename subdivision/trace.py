@@ -67,9 +67,10 @@ class Frame:
         How far that stage has come.
     before : Mesh
         What the stage began with, its helpers left out.
-    leaving : (m, 3) float
-        Points of ``before`` that nothing continues; they fade as ``progress`` grows.
-    leaving_roles : (m,) int
+    old_points, old_roles : (n_old, 3) float, (n_old,) int
+        All points the stage began with, helpers too.
+    leaving : (m,) int
+        The old points that nothing continues; they fade as ``progress`` grows.
     level : int
         How many subdivision steps are complete.
     """
@@ -83,8 +84,9 @@ class Frame:
     stage: Stage | None
     progress: float
     before: Mesh
-    leaving: Floats
-    leaving_roles: Indices
+    old_points: Floats
+    old_roles: Indices
+    leaving: Indices
     level: int
 
     @property
@@ -162,10 +164,9 @@ class Trace:
     def _still(self) -> Frame:
         n = len(self.points[0])
         roles = np.full(n, Role.ORIGINAL)
-        none = np.zeros((0, 3))
         return Frame(
             self.control.topology, self.points[0], self.points[0], np.ones(n), roles, roles, None, 1.0,
-            self.control, none, np.zeros(0, dtype=np.intp), 0,
+            self.control, self.points[0], roles, np.zeros(0, dtype=np.intp), 0,
         )  # fmt: skip
 
     def _during(self, k: int, t: float) -> Frame:
@@ -178,7 +179,7 @@ class Trace:
         done = k + 1 == len(self.stages) or self.levels[k + 1] > self.levels[k]
         return Frame(
             stage.topology, (1 - t) * start + t * after, start, birth, stage.roles, was, stage, t,
-            self.mesh_at(k), before[gone], self.roles_at(k)[gone], self.levels[k] + (done and t == 1),
+            self.mesh_at(k), before, self.roles_at(k), np.flatnonzero(gone), self.levels[k] + (done and t == 1),
         )  # fmt: skip
 
 

@@ -98,3 +98,13 @@ def _is_whole(picture):
                 assert (markers.radius > 0).all()
         else:
             assert content.boxes
+
+
+@pytest.mark.parametrize(("number", "centroids"), [("12", 4), ("22", 24)])
+def test_a_fragment_marks_helpers_only_on_its_own_faces_while_they_come_and_while_they_go(number: str, centroids: int):
+    lesson = lessons.find(number)
+    coming, going = (s for s in segments(lesson) if s.name in ("centroids", "geometry"))
+    for segment in (coming, going):
+        picture = compose(seek(start(lesson), (segment.begin + segment.end) / 2))
+        assert [len(m.points) for m in picture.scenes[0].markers if m.name == "centroid"] == [centroids]
+        assert "centroid" in [entry.text for entry in picture.legend]

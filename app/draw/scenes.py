@@ -40,10 +40,10 @@ def scene(
 ) -> Scene:
     """One instant of a trace in space."""
     radius = _marker_radius(trace, frame)
-    faint = _faint(frame)
+    faint = _faint(frame.topology, len(frame.points))
     faces = _faces(frame, theme) if options.surface else ()
     lines = (*_net(frame, theme, options), *_ghost(frame, theme, options), *_belonging(frame, theme, options))
-    markers = (*_ghost_markers(frame, theme, options, radius), *_markers(frame, theme, options, radius, faint))
+    markers = (*_leaving(frame, theme, options, radius), *_markers(frame, theme, options, radius, faint))
     labels: tuple[Label, ...] = _numbers(frame, theme, options)
     if stencil is not None and options.weights:
         picked, rays, words = _pointed_out(frame, trace, stencil, span, theme, radius)
@@ -61,11 +61,11 @@ def _marker_radius(trace: Trace, frame: Frame) -> float:
     return float(min(MARKER * size, CROWDED * typical))
 
 
-def _faint(frame: Frame) -> Mask:
-    """(n,) bool: points that only support the surface: every face round them is hidden."""
-    if not frame.topology.hidden.any():
-        return np.zeros(len(frame.points), dtype=np.bool_)
-    return ~np.concatenate([_shown_vertices(frame.topology), _shown_helpers(frame)])
+def _faint(t: Connectivity, n_points: int) -> Mask:
+    """(n_points,) bool: points that only support the surface: every face round them is hidden."""
+    if not t.hidden.any():
+        return np.zeros(n_points, dtype=np.bool_)
+    return ~np.concatenate([_shown_vertices(t), _shown_helpers(t, n_points - t.n_vertices)])
 
 
 def _shown_vertices(t: Connectivity) -> Mask:
@@ -75,9 +75,8 @@ def _shown_vertices(t: Connectivity) -> Mask:
     return shown
 
 
-def _shown_helpers(frame: Frame) -> Mask:
+def _shown_helpers(t: Connectivity, helpers: int) -> Mask:
     """A helper belongs to the face, or to the corner of a face, that has its number."""
-    t, helpers = frame.topology, len(frame.points) - frame.topology.n_vertices
     face = np.arange(t.n_faces) if helpers == t.n_faces else np.repeat(np.arange(t.n_faces), t.face_sizes)
     return np.asarray(~t.hidden[face]) if len(face) == helpers else np.ones(helpers, dtype=bool)
 
@@ -94,7 +93,7 @@ def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
         return ()
     t = frame.topology
     points, ends = frame.points[: t.n_vertices], t.ends
-    faint = _faint(frame)[: t.n_vertices][ends].any(axis=1)
+    faint = ~_shown_vertices(t)[ends].all(axis=1)
     new = frame.newborn[: t.n_vertices][ends].all(axis=1)
     sharp = _sharp(t)
     growth = float(frame.progress)
@@ -108,14 +107,14 @@ def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
 
 
-def _is_cornered(frame: Frame) -> bool:
+def _is_cornered(t: Connectivity, n_points: int) -> bool:
     """Whether the helpers are one to each corner of each face: weighted centroids."""
-    return 0 < len(frame.topology.origin) == len(frame.points) - frame.topology.n_vertices
+    return 0 < len(t.origin) == n_points - t.n_vertices
 
 
 def _belonging(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     """A thin stroke from every weighted centroid to the corner it is for."""
-    if not options.helpers or not _is_cornered(frame):
+    if not options.helpers or not _is_cornered(frame.topology, len(frame.points)):
         return ()
     t, n = frame.topology, frame.topology.n_vertices
     shown = ~t.hidden[np.repeat(np.arange(t.n_faces), t.face_sizes)]
@@ -137,52 +136,49 @@ def _ghost(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     return (Lines(before.points, before.topology.ends[shown], theme.net, 2.4 * theme.stroke, 0.7, dashed=True),)
 
 
-def _ghost_markers(frame: Frame, theme: Theme, options: Options, radius: float) -> tuple[Markers, ...]:
-    """Small faint marks where moving points came from, and what is leaving."""
-    if not options.ghost or frame.stage is None:
+def _leaving(frame: Frame, theme: Theme, options: Options, radius: float) -> tuple[Markers, ...]:
+    """What no point continues, such as helpers that have done their work, fades while the stage plays."""
+    if frame.progress == 1 or not len(frame.leaving):
         return ()
-    gone = len(frame.leaving)
-    marks = []
-    if gone and frame.progress < 1:
-        none = np.full(gone, -1)
-        size = np.array([SIZES[Role(r)] for r in frame.leaving_roles]) * radius
-        fade = np.full(gone, 1.0 - frame.progress)
-        for role in np.unique(frame.leaving_roles):
-            of = frame.leaving_roles == role
-            marks.append(Markers(
-                frame.leaving[of], SHAPES[Role(role)], theme.roles[Role(role)], size[of], fade[of], none[of],
-                NAMES[Role(role)],
-            ))  # fmt: skip
-    return tuple(marks)
+    shown = frame.leaving[~_faint(frame.before.topology, len(frame.old_points))[frame.leaving]]
+    cornered = _is_cornered(frame.before.topology, len(frame.old_points))
+    found = []
+    for role in Role:
+        of = shown[frame.old_roles[shown] == role]
+        if len(of) and (options.helpers or role is not Role.CENTROID):
+            shape, size = _marker(role, cornered)
+            fade, none = np.full(len(of), 1.0 - frame.progress), np.full(len(of), -1)
+            sizes = np.full(len(of), size * radius)
+            found.append(Markers(frame.old_points[of], shape, theme.roles[role], sizes, fade, none, NAMES[role]))
+    return tuple(found)
+
+
+def _marker(role: Role, cornered: bool) -> tuple[Shape, float]:
+    """Shape and relative size of a role's marker."""
+    if cornered and role is Role.CENTROID:
+        return Shape.SPHERE, CORNERED * SIZES[role]
+    return SHAPES[role], SIZES[role]
 
 
 def _markers(frame: Frame, theme: Theme, options: Options, radius: float, faint: Mask) -> tuple[Markers, ...]:
     """The points by role; a point that changes its role wears the new one from the middle of the stage on."""
-    roles = np.where(frame.progress < 0.5, frame.roles_before, frame.roles)
-    if frame.stage is not None and not frame.stage.moves:
-        roles = frame.roles
-    size = np.array([SIZES[Role(r)] for r in range(len(Role))])[roles] * radius * motion.grown(frame.birth)
+    moves = frame.stage is not None and frame.stage.moves
+    roles = np.where(moves & (frame.progress < 0.5), frame.roles_before, frame.roles)
+    cornered = _is_cornered(frame.topology, len(frame.points))
+    size = np.array([_marker(r, cornered)[1] for r in Role])[roles] * radius * motion.grown(frame.birth)
     many = MANY if frame.topology.n_faces else MANY_ON_A_CURVE
-    if len(size) > many and frame.progress == 1 and frame.stage is not None and frame.stage.moves:
+    if len(size) > many and frame.progress == 1 and moves:
         size = np.where(_extraordinary(frame), 1.6 * size, 0.0)
     found = []
     for role in Role:
-        if role is Role.CENTROID and not options.helpers:
-            continue
-        of = (roles == role) & ~faint & (size > 0)
-        shape, sizes = SHAPES[role], size[of]
-        if role is Role.CENTROID and _is_cornered(frame):
-            shape, sizes = Shape.SPHERE, CORNERED * sizes
-        if of.any():
-            ids = np.flatnonzero(of)
-            found.append(Markers(
-                frame.points[of], shape, theme.roles[role], sizes, np.ones(len(ids)), ids, NAMES[role],
-            ))  # fmt: skip
-    of = faint & (roles == Role.ORIGINAL) & (size > 0)
-    if of.any():
-        found.append(Markers(
-            frame.points[of], Shape.SPHERE, theme.faint, 0.6 * size[of], np.ones(of.sum()), np.flatnonzero(of), "",
-        ))  # fmt: skip
+        ids = np.flatnonzero((roles == role) & ~faint & (size > 0))
+        if len(ids) and (options.helpers or role is not Role.CENTROID):
+            shape, colour = _marker(role, cornered)[0], theme.roles[role]
+            found.append(Markers(frame.points[ids], shape, colour, size[ids], np.ones(len(ids)), ids, NAMES[role]))
+    ids = np.flatnonzero(faint & (roles == Role.ORIGINAL) & (size > 0))
+    if len(ids):
+        small = 0.6 * size[ids]
+        found.append(Markers(frame.points[ids], Shape.SPHERE, theme.faint, small, np.ones(len(ids)), ids, ""))
     return tuple(found)
 
 
