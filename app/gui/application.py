@@ -11,7 +11,6 @@ from types import TracebackType
 
 os.environ["QT_API"] = "pyside6"  # before pyvistaqt asks
 
-import PySide6
 from PySide6.QtCore import (
     QMessageLogContext,
     QSettings,
@@ -70,7 +69,6 @@ def application() -> QApplication:
     existing = QApplication.instance()
     if isinstance(existing, QApplication):
         return existing
-    keep_none()
     prepare()
     app = QApplication(sys.argv[:1])
     app.setApplicationName(NAME)
@@ -80,16 +78,6 @@ def application() -> QApplication:
     look.load_fonts()
     app.setFont(look.type_face(14))
     return app
-
-
-def keep_none() -> None:
-    """Save the process from PySide6 6.12.0 on Python 3.10 and 3.11.
-
-    There every call of Qt that returns nothing gives away a reference to None that it does not own; after about
-    a minute of playing none is left, and Python aborts.  From Python 3.12 on None needs no references.
-    """
-    if PySide6.__version__ == "6.12.0" and sys.version_info < (3, 12):
-        ctypes.c_ssize_t.from_address(id(None)).value += 1 << 60
 
 
 def prepare() -> None:

@@ -1,0 +1,197 @@
+"""Markers in VTK: one shape at many points, drawn by the graphics card from one small solid."""
+
+from collections.abc import Callable, Sequence
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkActor, vtkGlyph3DMapper
+
+from app.draw import vtk_arrays
+from app.draw.geometry import facets
+from app.draw.picture import Faces, Markers, Shape
+from app.draw.solid import BEAD, CUBE, HALO_RADIUS, HIDDEN, MARKER_LIGHT, OCTAHEDRON, RING, RING_AXIS, across
+from subdivision.arrays import Floats, Indices
+
+LIFT = 1.8
+"""How far markers are brought forward in the z-buffer, in radii of the largest."""
+
+
+FINE, COARSE = 32, 12
+"""Corners to the outline of a ball: where markers are few and large, and where they are many and small."""
+
+
+def resolution(n: int) -> int:
+    """Corners to the outline of each of ``n`` markers: the graphics card's work grows slower than their number."""
+    return int(np.clip(200 / np.sqrt(max(n, 1)), COARSE, FINE))
+
+
+class Glyphs:
+    """All markers of one shape that are solid, or all that are translucent."""
+
+    def __init__(self, shape: Shape, *, solid: bool) -> None:
+        self.shape = shape
+        self.drawn = [_Instances(partial(_glyph, shape), translucent=not solid)]
+        self.drawn += [_Instances(partial(_sphere, HALO_RADIUS), rim=True)] if shape is Shape.HALO else []
+        self.faint = _Instances(partial(_glyph, shape), translucent=True)
+        self._largest = 0.0
+
+    def join(self, renderer: Any, over: Any) -> None:
+        for instances in self.drawn:
+            renderer.AddViewProp(instances.actor)
+        over.AddViewProp(self.faint.actor)
+
+    def lift(self, depth: float, perspective: float) -> None:
+        """Bring all forward by a little more than their size.
+
+        ``depth`` is what a unit of space is in the z-buffer; ``perspective`` is 0 in a parallel view, else 1.
+        """
+        for instances in self.drawn:
+            instances.uniforms.SetUniformf("lift", LIFT * self._largest * depth)
+            instances.uniforms.SetUniformf("perspective", perspective)
+
+    def show(self, markers: Sequence[Markers], *, solid: bool) -> None:
+        which = [(m.opacity >= 0.999) == solid for m in markers]
+        points = [m.points[w] for m, w in zip(markers, which, strict=True)]
+        radius = [m.radius[w] for m, w in zip(markers, which, strict=True)]
+        colour = [vtk_arrays.rgba(m.colour, m.opacity[w]) for m, w in zip(markers, which, strict=True)]
+        some = sum(map(len, points)) > 0
+        self._largest = max((float(r.max()) for r in radius if len(r)), default=0.0)
+        for instances in (*self.drawn, self.faint):
+            instances.actor.SetVisibility(some)
+            if some:
+                faint = HIDDEN if instances is self.faint else 1.0
+                instances.model(min(resolution(sum(map(len, points))), COARSE if instances is self.faint else FINE))
+                instances.show(np.vstack(points), np.concatenate(radius), np.vstack(colour) * [1, 1, 1, faint])
+
+
+class _Instances:
+    """One shape at many points, each with its size and colour."""
+
+    def __init__(self, source: Callable[[int], Any], *, translucent: bool = False, rim: bool = False) -> None:
+        self.data, self.mapper, self.actor = vtkPolyData(), vtkGlyph3DMapper(), vtkActor()
+        self.mapper.SetInputData(self.data)
+        self.source = source
+        self.model(FINE)
+        self.mapper.SetScaleModeToScaleByMagnitude()
+        self.mapper.SetScaleArray("radius")
+        self.mapper.SetScalarModeToUsePointFieldData()
+        self.mapper.SelectColorArray("colour")
+        self.mapper.SetColorModeToDirectScalars()
+        self.mapper.OrientOff()
+        self.actor.SetMapper(self.mapper)
+        self.actor.VisibilityOff()
+        if translucent or rim:
+            self.actor.ForceTranslucentOn()
+        else:
+            self.actor.ForceOpaqueOn()
+        finish(self.actor, ambient=MARKER_LIGHT[0], diffuse=MARKER_LIGHT[1], specular=0.2)
+        self.actor.GetProperty().BackfaceCullingOn()  # else the far side shines through the translucent ones
+        if rim:
+            _only_rim(self.actor)
+        self.uniforms = _lifted(self.actor)
+
+    def model(self, corners: int) -> None:
+        """Draw each marker with so many corners to its outline."""
+        self.mapper.SetSourceData(self.source(corners))
+
+    def show(self, points: Floats, radius: Floats, colour: Floats) -> None:
+        self.data.SetPoints(vtk_arrays.points(points))
+        for name, array in (("radius", vtk_arrays.array(radius)), ("colour", vtk_arrays.colours(colour))):
+            array.SetName(name)
+            self.data.GetPointData().AddArray(array)
+        self.data.Modified()
+
+
+def finish(actor: Any, *, ambient: float, diffuse: float, specular: float) -> None:
+    """How an actor answers light."""
+    look = actor.GetProperty()
+    look.SetInterpolationToPhong()
+    look.SetAmbient(ambient)
+    look.SetDiffuse(diffuse)
+    look.SetSpecular(specular)
+    look.SetSpecularPower(24)
+
+
+# -- marker shapes, each about as heavy as a ball of radius 1 -----------------------------------
+
+
+@cache
+def _glyph(shape: Shape, corners: int) -> Any:
+    if shape is Shape.DIAMOND:
+        return _flat(OCTAHEDRON)
+    if shape is Shape.CUBE:
+        return _flat(CUBE)
+    if shape is Shape.BEAD:
+        both = vtkAppendPolyData()
+        both.AddInputData(_sphere(BEAD, corners))
+        both.AddInputData(_torus(*RING, corners))
+        both.Update()
+        return both.GetOutput()
+    return _sphere(1.0, corners)
+
+
+@cache
+def _sphere(radius: float, corners: int) -> Any:
+    source = vtkSphereSource()
+    source.SetRadius(radius)
+    source.SetThetaResolution(corners)
+    source.SetPhiResolution(2 * corners // 3)
+    source.Update()
+    return source.GetOutput()
+
+
+def _torus(radius: float, thickness: float, corners: int) -> Any:
+    axis = RING_AXIS / np.linalg.norm(RING_AXIS)
+    u, v = across(axis)
+    n, m = 4 * corners // 3, max(corners // 3, 4)
+    turns = np.arange(n) * 2 * np.pi / n, np.arange(m) * 2 * np.pi / m
+    s, t = (x.ravel()[:, None] for x in np.meshgrid(*turns, indexing="ij"))
+    out = np.cos(s) * u + np.sin(s) * v
+    normal = np.cos(t) * out + np.sin(t) * axis
+    k = np.arange(n * m).reshape(n, m)
+    a, b, c, d = (x.ravel() for x in (k, np.roll(k, -1, 0), np.roll(k, (-1, -1), (0, 1)), np.roll(k, -1, 1)))
+    return _poly(radius * out + thickness * normal, normal, np.vstack([np.stack([a, b, c], 1), np.stack([a, c, d], 1)]))
+
+
+def _flat(solid: Faces) -> Any:
+    """A solid with flat sides."""
+    cut = facets(solid)
+    return _poly(cut.points, cut.normals, cut.triangles)
+
+
+def _poly(points: Floats, normals: Floats, triangles: Indices) -> Any:
+    data = vtkPolyData()
+    data.SetPoints(vtk_arrays.points(points))
+    data.GetPointData().SetNormals(vtk_arrays.array(normals))
+    data.SetPolys(vtk_arrays.cells(triangles))
+    return data
+
+
+def _only_rim(actor: Any) -> None:
+    """Of a sphere keep what is seen nearly edge on: a ring that faces the eye from everywhere."""
+    actor.GetShaderProperty().AddFragmentShaderReplacement(
+        "//VTK::Light::Impl", True,
+        "//VTK::Light::Impl\n"
+        "  vec3 toEye = mix(vec3(0.0, 0.0, 1.0), normalize(-vertexVCVSOutput.xyz), perspective);\n"
+        "  float facing = abs(dot(normalize(normalVCVSOutput), toEye));\n"
+        "  float rim = 1.0 - smoothstep(0.48, 0.56, facing);\n"
+        "  if (rim < 0.02) discard;\n"
+        "  fragOutput0 = vec4(ambientColor / max(ambientIntensity, 1e-3), opacity * rim * 0.85);\n",
+        False,
+    )  # fmt: skip
+
+
+def _lifted(actor: Any) -> Any:
+    """Draw an actor a little nearer than it is, so that the surface it lies on does not cut it in halves."""
+    look = actor.GetShaderProperty()
+    look.AddFragmentShaderReplacement(
+        "//VTK::Depth::Impl", True, "//VTK::Depth::Impl\n  gl_FragDepth = max(gl_FragCoord.z - lift, 0.0);\n", False
+    )
+    uniforms = look.GetFragmentCustomUniforms()
+    uniforms.SetUniformf("lift", 0.0)
+    uniforms.SetUniformf("perspective", 0.0)
+    return uniforms
