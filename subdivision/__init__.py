@@ -1,9 +1,10 @@
 """Subdivision curves and surfaces: topology, stages, schemes.  No windows, no graphics."""
 
+from subdivision.manifold import TopologyError
 from subdivision.rows import Connectivity, Grid, Polyline
 from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Stencil, Step
-from subdivision.topology import Boundary, Topology, TopologyError
+from subdivision.topology import Boundary, Topology
 from subdivision.trace import Frame, Mesh, Trace, subdivide, trace
 
 __all__ = [

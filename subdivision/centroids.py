@@ -27,10 +27,12 @@ from subdivision.averages import (
     vertex_faces,
 )
 from subdivision.exact import Exact
-from subdivision.operators import Operator, Pick, Weights, by_count, identity, mix, stack, widened
+from subdivision.manifold import TopologyError
+from subdivision.operators import Operator, Pick, identity, mix, stack, widened
 from subdivision.sharpness import CREASE, SMOOTH, VertexRules, blend, edge_share, vertex_rules
 from subdivision.stage import Role, Stage, Step
-from subdivision.topology import Topology, TopologyError
+from subdivision.topology import Topology
+from subdivision.weights import Weights, by_count
 
 Pull = Callable[[int], Exact | int]
 """Valence -> how much of the way to the centroid of centroids a vertex goes."""

@@ -10,8 +10,8 @@ from fractions import Fraction
 import numpy as np
 
 from subdivision.arrays import Floats
+from subdivision.manifold import TopologyError
 from subdivision.passes import Vector
-from subdivision.topology import TopologyError
 
 
 @dataclass(frozen=True)

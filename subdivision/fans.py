@@ -10,8 +10,9 @@ import numpy as np
 from subdivision.arrays import Indices, Mask
 from subdivision.averages import vertex_corners
 from subdivision.exact import Exact
-from subdivision.operators import Operator, Pick, Weights, by_count
+from subdivision.operators import Operator, Pick
 from subdivision.topology import Topology
+from subdivision.weights import Weights, by_count
 
 Corner: TypeAlias = tuple[Exact | int, Exact | int, Exact | int, Exact | int]
 """What a sum takes of one face round a vertex: of the vertex itself, of the next, opposite and previous corners."""

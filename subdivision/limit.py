@@ -13,11 +13,12 @@ from typing import cast
 import numpy as np
 
 from subdivision.arrays import Floats
+from subdivision.manifold import TopologyError
 from subdivision.operators import Operator
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Stage, Stencil, Step
-from subdivision.topology import INFINITELY_SHARP, Topology, TopologyError
+from subdivision.topology import INFINITELY_SHARP, Topology
 from subdivision.trace import Mesh
 
 MOST_FACES = 2_000_000

@@ -13,11 +13,11 @@ import numpy as np
 
 from subdivision.arrays import Indices
 from subdivision.continuity import mask, promise, smoothness
+from subdivision.manifold import TopologyError
 from subdivision.operators import Operator, Pick
 from subdivision.passes import Vector
 from subdivision.rows import Connectivity, Grid, Polyline
 from subdivision.stage import Role, Stage
-from subdivision.topology import TopologyError
 
 
 def curve_limit(t: Connectivity, degree: int) -> Stage:

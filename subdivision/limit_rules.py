@@ -17,10 +17,11 @@ from subdivision.arrays import Floats
 from subdivision.averages import neighbours
 from subdivision.exact import Exact, Formula, quotient
 from subdivision.fans import Corner, dart_ends, weighed
-from subdivision.operators import Mean, Operator, by_count, by_value, identity, mix
+from subdivision.operators import Mean, Operator, identity, mix
 from subdivision.sharpness import blend, vertex_rules
 from subdivision.stage import Role, Stage
 from subdivision.topology import Topology
+from subdivision.weights import by_count, by_value
 
 
 def quad_limit(t: Topology, pull: Callable[[int], Exact | int]) -> Stage:

@@ -18,9 +18,10 @@ from subdivision.arrays import Floats, Indices, Mask
 from subdivision.exact import Exact, Formula, cosine, quotient, sine
 from subdivision.fans import Corner, dart_ends, weighed
 from subdivision.limit_rules import corners_of, quad_dart, triangle_dart
-from subdivision.operators import Operator, by_count
+from subdivision.operators import Operator
 from subdivision.sharpness import CORNER, CREASE, SMOOTH, vertex_rules
 from subdivision.topology import Topology
+from subdivision.weights import by_count
 
 AROUND, DART, ALONG, PINNED = 1, 2, 3, 4
 """Where there is one tangent plane: smooth vertices, darts, boundary curves, the pinned corner of a single face."""

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from subdivision.manifold import TopologyError
 from subdivision.rows import Connectivity
-from subdivision.topology import Topology, TopologyError
+from subdivision.topology import Topology
 
 
 def refuses_non_meshes(t: Connectivity) -> str:

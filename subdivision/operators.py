@@ -9,7 +9,6 @@ A rule is written once, as a formula such as ``3/4 * midpoints + 1/4 * wings``, 
 Python's ``3 / 4`` is exact in binary; other constants are written ``Fraction(1, 3)``.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -19,45 +18,8 @@ import numpy as np
 from scipy.sparse import csr_array, diags_array
 
 from subdivision.arrays import Floats, Indices, Mask
-from subdivision.exact import Exact, Row, add_rows
-
-
-@dataclass(frozen=True, eq=False)
-class Weights:
-    """One exact weight per row, stored as a short table of values and an index into it."""
-
-    table: tuple[Exact, ...]
-    index: Indices
-
-    @cached_property
-    def values(self) -> Floats:
-        """(n,) float."""
-        values: Floats = np.array([float(w) for w in self.table], dtype=float)[self.index]
-        return values
-
-    def __getitem__(self, row: int) -> Exact:
-        return self.table[int(self.index[row])]
-
-    def __rsub__(self, number: int) -> "Weights":
-        return Weights(tuple(number - w for w in self.table), self.index)
-
-    def __rmul__(self, number: Fraction | int) -> "Weights":
-        return Weights(tuple(number * w for w in self.table), self.index)
-
-
-def by_count(rule: Callable[[int], Exact | int], counts: Indices) -> Weights:
-    """``rule(count)`` for every row: weights that depend on the valence.  A count of 0 weighs 0."""
-    present = np.flatnonzero(np.bincount(counts))
-    slot = np.zeros(present[-1] + 1 if len(present) else 1, dtype=np.intp)
-    slot[present] = np.arange(len(present))
-    table = tuple(_number(rule(int(n))) if n else Fraction(0) for n in present)
-    return Weights(table, slot[counts])
-
-
-def by_value(values: Floats | Mask) -> Weights:
-    """The numbers themselves as exact weights; meant for few distinct ones, such as sharpness."""
-    distinct, index = np.unique(values, return_inverse=True)
-    return Weights(tuple(Fraction(float(v)) for v in distinct), index.ravel())
+from subdivision.exact import Row, add_rows
+from subdivision.weights import Weights, everywhere
 
 
 class Operator:
@@ -88,7 +50,7 @@ class Operator:
         return Sum(self, other)
 
     def __rmul__(self, weight: "Weights | Fraction | float | int") -> "Operator":
-        return Scaled(weight if isinstance(weight, Weights) else _everywhere(weight, self.shape[0]), self)
+        return Scaled(weight if isinstance(weight, Weights) else everywhere(weight, self.shape[0]), self)
 
     def __getitem__(self, rows: "Indices | Mask | slice") -> "Operator":
         """Some of the rows."""
@@ -305,11 +267,3 @@ def mix(weights: Weights, a: Operator, b: Operator) -> Operator:
     if weights.table == (Fraction(1),):
         return a
     return weights * a + (1 - weights) * b
-
-
-def _number(value: Exact | int | float) -> Exact:
-    return Fraction(value) if isinstance(value, int | float) else value
-
-
-def _everywhere(weight: Fraction | float | int, n: int) -> Weights:
-    return Weights((_number(weight),), np.zeros(n, dtype=np.intp))

@@ -13,10 +13,10 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from subdivision.arrays import Indices
+from subdivision.manifold import TopologyError
 from subdivision.operators import MeanOf, Operator, Pick, identity, stack
 from subdivision.rows import Connectivity, Grid, Polyline
 from subdivision.stage import Role, Stage, Step
-from subdivision.topology import TopologyError
 
 Vector: TypeAlias = tuple[int, int]
 Pass: TypeAlias = Callable[[Connectivity], Stage]

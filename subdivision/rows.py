@@ -11,7 +11,8 @@ from typing import TypeAlias
 import numpy as np
 
 from subdivision.arrays import Indices, Mask, frozen
-from subdivision.topology import Topology, TopologyError
+from subdivision.manifold import TopologyError
+from subdivision.topology import Topology
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,11 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from subdivision.manifold import TopologyError
 from subdivision.operators import Operator
 from subdivision.rows import Connectivity
 from subdivision.stage import Stage, Step
-from subdivision.topology import Topology, TopologyError
+from subdivision.topology import Topology
 
 NOT_A_MESH = "it subdivides polygon meshes"
 

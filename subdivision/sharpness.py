@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask
-from subdivision.operators import Operator, Weights, by_value, mix
+from subdivision.operators import Operator, mix
 from subdivision.refine import worn
 from subdivision.topology import Topology
+from subdivision.weights import Weights, by_value
 
 SMOOTH, CREASE, CORNER = 0, 1, 2
 

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from subdivision.arrays import Floats
 from subdivision.exact import Exact, cosine, spelled
+from subdivision.manifold import TopologyError
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
-from subdivision.topology import Topology, TopologyError
+from subdivision.topology import Topology
 
 Point: TypeAlias = Literal["vertex", "edge", "face"]
 

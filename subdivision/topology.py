@@ -17,21 +17,10 @@ from typing import Self
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, frozen
+from subdivision.manifold import TopologyError, paired, require_faces
 
 INFINITELY_SHARP = 10.0
 """Sharpness from here on never wears off, as in OpenSubdiv."""
-
-
-class TopologyError(ValueError):
-    """The faces do not make an oriented manifold, or not one that a scheme accepts.
-
-    ``faces`` and ``vertices`` name the culprits, so that a reader can find their lines.
-    """
-
-    def __init__(self, message: str, *, faces: Sequence[int] = (), vertices: Sequence[int] = ()) -> None:
-        super().__init__(message)
-        self.faces = tuple(int(f) for f in faces)
-        self.vertices = tuple(int(v) for v in vertices)
 
 
 class Boundary(Enum):
@@ -122,11 +111,11 @@ class Topology:
         """Build connectivity from face ``sizes`` (n_faces,) int and their corners laid end to end."""
         n = n_vertices if n_vertices is not None else int(origin.max(initial=-1)) + 1
         face = np.repeat(np.arange(len(sizes)), sizes)
-        _require_faces(sizes, origin, face, n)
+        require_faces(sizes, origin, face, n)
         next_ = np.arange(1, len(origin) + 1)
         last = np.cumsum(sizes) - 1
         next_[last] = last - sizes + 1
-        twin, edge, ends = _paired(origin, origin[next_], face, n)
+        twin, edge, ends = paired(origin, origin[next_], face, n)
         bare = cls(
             origin, next_, twin, edge, face, n,
             edge_sharpness=_crease_sharpness(ends, creases or {}),
@@ -218,67 +207,6 @@ class Topology:
     def loops(self) -> list[list[int]]:
         """Vertex loops of the faces, in face order (for drawing and export)."""
         return [loop.tolist() for loop in np.split(self.origin, np.cumsum(self.face_sizes)[:-1])]
-
-
-def _require_faces(sizes: Indices, origin: Indices, face: Indices, n_vertices: int) -> None:
-    """Every face has three corners or more, all of them different and all of them there."""
-    if len(sizes) == 0:
-        raise TopologyError("there are no faces; a mesh needs at least one")
-    if (small := np.flatnonzero(sizes < 3)).size:
-        f = int(small[0])
-        raise TopologyError(f"face {f} has {sizes[f]} corners; a face needs three or more", faces=[f])
-    if (bad := np.flatnonzero((origin < 0) | (origin >= n_vertices))).size:
-        f = int(face[bad[0]])
-        raise TopologyError(
-            f"face {f} names vertex {origin[bad[0]]}, but there are only {n_vertices} vertices (0 to {n_vertices - 1})",
-            faces=[f],
-        )
-    order = np.lexsort((origin, face))
-    twice = (np.diff(origin[order]) == 0) & (np.diff(face[order]) == 0)
-    if twice.any():
-        h = int(order[int(np.flatnonzero(twice)[0])])
-        raise TopologyError(
-            f"face {face[h]} visits vertex {origin[h]} twice; remove the repeated corner", faces=[int(face[h])]
-        )
-
-
-def _paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Indices, Indices]:
-    """Twin and edge of the half-edges from ``a`` to ``b``, and the ends of the edges: the only search there is."""
-    key = np.minimum(a, b) * n + np.maximum(a, b)
-    order = np.argsort(key, kind="stable")
-    first = np.r_[True, np.diff(key[order]) != 0]
-    start = np.flatnonzero(first)
-    count = np.diff(np.r_[start, len(key)])
-    _require_two_faces_an_edge(a, b, face, order, start, count)
-    edge = np.empty(len(key), dtype=np.intp)
-    edge[order] = np.cumsum(first) - 1
-    twin = np.full(len(key), -1, dtype=np.intp)
-    one, other = order[start[count == 2]], order[start[count == 2] + 1]
-    if (same := np.flatnonzero(a[one] == a[other])).size:
-        g, h = int(one[same[0]]), int(other[same[0]])
-        raise TopologyError(
-            f"faces {face[g]} and {face[h]} both run from vertex {a[g]} to vertex {b[g]}; "
-            "reverse the corner order of one of them",
-            faces=[int(face[g]), int(face[h])],
-            vertices=[int(a[g]), int(b[g])],
-        )
-    twin[one], twin[other] = other, one
-    return twin, edge, np.stack([a[order[start]], b[order[start]]], axis=1)
-
-
-def _require_two_faces_an_edge(
-    a: Indices, b: Indices, face: Indices, order: Indices, start: Indices, count: Indices
-) -> None:
-    if (many := np.flatnonzero(count > 2)).size:
-        e = many[0]
-        around = [int(face[h]) for h in order[start[e] : start[e] + count[e]]]
-        h = order[start[e]]
-        raise TopologyError(
-            f"the edge between vertices {a[h]} and {b[h]} has {count[e]} faces ({', '.join(map(str, around))}); "
-            "a surface has at most two there, so remove the others or split the edge",
-            faces=around,
-            vertices=[int(a[h]), int(b[h])],
-        )
 
 
 def _require_single_fans(t: Topology) -> None:

@@ -6,10 +6,11 @@ from functools import cached_property
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, frozen
+from subdivision.manifold import TopologyError
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step
-from subdivision.topology import Topology, TopologyError
+from subdivision.topology import Topology
 
 
 @dataclass(frozen=True, eq=False)

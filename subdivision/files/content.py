@@ -8,7 +8,8 @@ import numpy as np
 
 from subdivision.arrays import Floats, Indices
 from subdivision.files.faults import Fault
-from subdivision.topology import Topology, TopologyError
+from subdivision.manifold import TopologyError
+from subdivision.topology import Topology
 from subdivision.trace import Mesh
 
 

@@ -8,11 +8,11 @@ a closed one of 2 N.
 from functools import partial
 
 from subdivision.limit_nets import curve_limit
+from subdivision.manifold import TopologyError
 from subdivision.passes import Pass, at_once, average, merged, room, split, told, topology_and_geometry
 from subdivision.rows import Connectivity, Polyline
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
-from subdivision.topology import TopologyError
 
 ALONG = (1, 0)
 

@@ -8,6 +8,7 @@ from functools import partial
 from itertools import chain, zip_longest
 
 from subdivision.limit_nets import net_limit, tensor_weights
+from subdivision.manifold import TopologyError
 from subdivision.passes import (
     Pass,
     as_grid,
@@ -22,7 +23,6 @@ from subdivision.passes import (
 )
 from subdivision.rows import Connectivity, Grid
 from subdivision.scheme import Scheme
-from subdivision.topology import TopologyError
 
 S, T = (1, 0), (0, 1)
 

@@ -10,9 +10,9 @@ from functools import partial
 import numpy as np
 
 from subdivision.arrays import Floats
+from subdivision.manifold import TopologyError
 from subdivision.shapes.build import mesh, meshed
 from subdivision.shapes.nets import net
-from subdivision.topology import TopologyError
 from subdivision.trace import Mesh
 
 
