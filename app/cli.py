@@ -9,6 +9,7 @@ from itertools import groupby
 from pathlib import Path
 
 import lessons
+from app.figures import BACKGROUNDS, FORMATS, FigureError, render
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
@@ -16,8 +17,6 @@ from subdivision.exact import Exact, spelled
 from subdivision.schemes import SCHEMES
 
 NAMES = {s.name: s for s in SCHEMES}
-FORMATS = ("png", "svg", "pdf", "gif", "mp4")
-BACKGROUNDS = ("white", "black", "transparent")
 
 MOST_FACES = 20_000_000
 """A mesh file beyond this is gigabytes; nobody asks for one on purpose."""
@@ -67,17 +66,15 @@ def list_lessons(options: argparse.Namespace) -> None:
 def draw_figures(options: argparse.Namespace) -> None:
     """Render lessons to files."""
     chosen = [_lesson(name) for name in options.lessons] or list(lessons.all_lessons())
-    from app import figures
-
     try:
         for each in chosen:
-            written = figures.render(
+            written = render(
                 each, options.out, formats=options.format, size=options.size, background=options.background,
                 steps=options.steps,
             )  # fmt: skip
             for path in written:
                 print(path)
-    except figures.FigureError as fault:
+    except FigureError as fault:
         raise Fault(str(fault)) from fault
 
 

@@ -100,6 +100,7 @@ def test_mask_prints_the_quartic_and_explains_a_jump(capsys):
         (["mask", "--vectors", "1,x"], 2, "integer pairs"),
         (["figures"], 2, "--out"),
         (["figures", "--out", "x", "--size", "big"], 2, "1920x1080"),
+        (["figures", "--out", "x", "--format", "pdf"], 2, "png, svg, gif"),
         (["subdivide", "a.obj", "-o", "b.obj", "--scheme", "loop", "--levels", "-1"], 2, "negative"),
     ],
 )
