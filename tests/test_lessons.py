@@ -3,6 +3,7 @@
 import re
 import string
 
+import numpy as np
 import pytest
 
 import lessons
@@ -11,6 +12,7 @@ from app.draw.picture import Diagram, Scene
 from app.draw.theme import THEMES
 from app.state import at_stop, choose, seek, segments, start, stops
 from lessons.script import Lesson
+from subdivision import Role
 
 LESSONS = lessons.all_lessons()
 COLOURS = re.compile(r"\b(red|orange|yellow|green|blue|purple|black|white|vermilion)\b")
@@ -108,3 +110,20 @@ def test_a_fragment_marks_helpers_only_on_its_own_faces_while_they_come_and_whil
         picture = compose(seek(start(lesson), (segment.begin + segment.end) / 2))
         assert [len(m.points) for m in picture.scenes[0].markers if m.name == "centroid"] == [centroids]
         assert "centroid" in [entry.text for entry in picture.legend]
+
+
+def test_strokes_spread_from_four_corners_to_each_centroid_and_from_three_centroids_to_each_cube_corner():
+    lesson = lessons.find("14")
+    coming, going = (next(s for s in segments(lesson) if s.name == name) for name in ("centroids", "geometry"))
+    green = THEMES["light"].roles[Role.CENTROID]
+
+    def strokes(segment, part):
+        scene = compose(seek(start(lesson), segment.begin + part)).scenes[0]
+        (found,) = (lines for lines in scene.lines if lines.colour == green)
+        return found
+
+    assert len(strokes(coming, 0.3).pairs) == 24 * 4
+    assert len(strokes(going, 0.3).pairs) == 8 * 3 + 12 * 4  # face points stay where they are
+    spread = [strokes(coming, part) for part in (0.1, 0.5)]
+    early, late = (np.linalg.norm(np.diff(s.points[s.pairs], axis=1)) for s in spread)
+    assert early < late

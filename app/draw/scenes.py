@@ -3,6 +3,7 @@
 import numpy as np
 
 from app.draw import motion
+from app.draw.cues import cues
 from app.draw.framing import camera
 from app.draw.picture import Faces, Label, Lines, Markers, Scene, Shape
 from app.draw.theme import NAMES, SHAPES, SIZES, Theme
@@ -43,6 +44,8 @@ def scene(
     faint = _faint(frame.topology, len(frame.points))
     faces = _faces(frame, theme) if options.surface else ()
     lines = (*_net(frame, theme, options), *_ghost(frame, theme, options), *_belonging(frame, theme, options))
+    if options.ghost:
+        lines = (*lines, *cues(frame, theme, faint, _faint(frame.before.topology, len(frame.old_points))))
     markers = (*_leaving(frame, theme, options, radius), *_markers(frame, theme, options, radius, faint))
     labels: tuple[Label, ...] = _numbers(frame, theme, options)
     if stencil is not None and options.weights:
@@ -97,7 +100,7 @@ def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     new = frame.newborn[: t.n_vertices][ends].all(axis=1)
     sharp = _sharp(t)
     growth = float(frame.progress)
-    width = (3.2 if t.n_faces else 5.5) * (1.0 if len(ends) < 800 else 0.6) * theme.stroke
+    width = theme.stroke * _stroke(t)
     parts = [
         Lines(points, ends[faint], theme.faint, 0.7 * width),
         Lines(points, ends[~faint & ~new & ~sharp], theme.edge, width),
@@ -105,6 +108,13 @@ def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
         Lines(points, ends[~faint & sharp], theme.ink, 2.2 * width),
     ]
     return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
+
+
+def _stroke(t: Connectivity) -> float:
+    """Width of an edge in logical points: thin on surfaces, heavy on curves, heaviest where no point is marked."""
+    if t.n_faces:
+        return 3.2 if t.n_edges < 800 else 1.9
+    return 5.5 if t.n_vertices <= MANY_ON_A_CURVE else 8.0
 
 
 def _is_cornered(t: Connectivity, n_points: int) -> bool:
