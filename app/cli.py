@@ -18,6 +18,9 @@ from subdivision.schemes import SCHEMES
 
 NAMES = {s.name: s for s in SCHEMES}
 
+MOST_NAMES = 12
+"""More points of the same weight are named by the first and the last."""
+
 MOST_FACES = 20_000_000
 """A mesh file beyond this is gigabytes; nobody asks for one on purpose."""
 
@@ -33,9 +36,24 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (TopologyError, files.FileError, Fault) as fault:
         print(f"subdivision-studio: {fault}", file=sys.stderr)
         return 1
+    except MemoryError:
+        print("subdivision-studio: there is not enough memory for this; choose fewer levels", file=sys.stderr)
+        return 1
     except BrokenPipeError:  # the reader of our output, such as head, has had enough
         sys.stderr.close()
         return 0
+    except Exception:
+        return _bug()
+
+
+def _bug() -> int:
+    """Say that something is wrong inside the program; the traceback goes to the log."""
+    from app.log import LOG, keep_log
+
+    log = keep_log()
+    LOG.critical("uncaught", exc_info=True)
+    print(f"subdivision-studio: something went wrong inside the program; the details are in {log}", file=sys.stderr)
+    return 1
 
 
 class Fault(Exception):
@@ -107,7 +125,7 @@ def print_stencil(options: argparse.Namespace) -> None:
         return
     print(f"{scheme.title}: {options.point} point at valence {options.valence}")
     grouped = groupby(terms, key=lambda term: term[1])
-    rows = [(" ".join(name for name, _ in alike), _written(w)) for w, alike in grouped]
+    rows = [(_listed([name for name, _ in alike]), _written(w)) for w, alike in grouped]
     rows.append(("sum", spelled(sum((w for _, w in terms), Fraction(0)))))
     width = max(len(names) for names, _ in rows)
     for names, w in rows:
@@ -215,6 +233,10 @@ def _require_room(control: Mesh, levels: int) -> None:
     faces = t.n_halfedges * 4 ** (levels - 1) if not t.is_triangular and levels else t.n_faces * 4**levels
     if faces > MOST_FACES:
         raise Fault(f"{levels} levels would make {faces:,} faces; choose fewer levels (at most {MOST_FACES:,} faces)")
+
+
+def _listed(names: list[str]) -> str:
+    return " ".join(names) if len(names) <= MOST_NAMES else f"{names[0]} {names[1]} ... {names[-1]}"
 
 
 def _written(weight: Exact) -> str:

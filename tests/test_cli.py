@@ -1,6 +1,7 @@
 """The command line as a user types it: what it prints, and its one sentence when something is wrong."""
 
 import json
+import logging
 import subprocess
 import sys
 from fractions import Fraction
@@ -92,6 +93,7 @@ def test_mask_prints_the_quartic_and_explains_a_jump(capsys):
         (["figure_99"], 1, "there is no lesson"),
         (["subdivide", "nowhere.obj", "-o", "x.obj", "--scheme", "loop", "--levels", "1"], 1, "nowhere.obj"),
         (["subdivide", "CUBE", "-o", "x.obj", "--scheme", "loop", "--levels", "1"], 1, "triangle"),
+        (["subdivide", "CUBE", "-o", "x.ply", "--scheme", "loop", "--levels", "x"], 2, "--levels"),
         (["subdivide", "CUBE", "-o", "x.xyz", "--scheme", "catmull-clark", "--levels", "1"], 1, "xyz"),
         (["subdivide", "CUBE", "-o", "x.obj", "--scheme", "catmull-clark", "--levels", "15"], 1, "fewer levels"),
         (["stencil", "--scheme", "loop", "--valence", "2"], 1, "valence"),
@@ -115,6 +117,40 @@ def test_a_fault_is_one_sentence_and_leaves_no_file(capsys, tmp_path, monkeypatc
     if status == 1:
         assert len(err.strip().splitlines()) == 1
     assert sorted(p.name for p in tmp_path.iterdir()) == ["cube.obj"]
+
+
+@pytest.mark.parametrize("suffix", ["obj", "ply"])
+def test_a_sheet_that_is_all_boundary_leaves_nothing_to_save_and_says_so(capsys, tmp_path, suffix):
+    source, target = tmp_path / "one.obj", tmp_path / f"out.{suffix}"
+    source.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    args = ["subdivide", source, "-o", target, "--scheme", "quad-centroid", "--levels", 1, "--boundary", "hide"]
+    status, _, err = run(capsys, *args)
+    assert status == 1
+    assert "no face is left" in err
+    assert not target.exists()
+
+
+def test_a_fault_of_our_own_is_a_sentence_for_the_user_and_a_traceback_for_the_log(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("app.log.user_log_path", lambda *_, **__: tmp_path / "logs")
+    monkeypatch.setattr("app.cli.degree", lambda vectors: 1 / 0)
+    root = logging.getLogger()
+    before = list(root.handlers)
+    try:
+        status, _, err = run(capsys, "mask", "--vectors", "1,0 0,1")
+    finally:
+        for handler in [h for h in root.handlers if h not in before]:
+            root.removeHandler(handler)
+            handler.close()
+    assert status == 1
+    assert len(err.strip().splitlines()) == 1
+    assert "ZeroDivisionError" in (tmp_path / "logs" / "studio.log").read_text(encoding="utf-8")
+    assert "Traceback" not in err
+
+
+def test_many_equal_weights_are_listed_by_the_first_and_the_last(capsys):
+    _, out, _ = run(capsys, "stencil", "--scheme", "catmull-clark", "--valence", 40)
+    assert "E1 E2 ... E40" in out
+    assert max(map(len, out.splitlines())) < 80
 
 
 def test_help_and_lessons_load_neither_qt_nor_vtk():

@@ -5,7 +5,6 @@ import logging
 import os
 import signal
 import sys
-from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from types import TracebackType
 
@@ -14,7 +13,6 @@ os.environ["QT_API"] = "pyside6"  # before pyvistaqt asks
 from PySide6.QtCore import (
     QMessageLogContext,
     QSettings,
-    QStandardPaths,
     QTimer,
     QtMsgType,
     qInstallMessageHandler,
@@ -27,11 +25,10 @@ from app.gui import look
 from app.gui.look import system_theme
 from app.gui.session import Session
 from app.gui.window import NAME, Window
+from app.log import LOG, keep_log
 from app.state import Options, State, open_lesson, start
 from lessons import all_lessons, find
 from lessons.script import Lesson
-
-LOG = logging.getLogger("studio")
 
 NO_SCREEN = (
     "there is no screen to open the window on (DISPLAY and WAYLAND_DISPLAY lead nowhere). "
@@ -164,22 +161,6 @@ def _refuse(sentence: str) -> int:
 def settings_file() -> QSettings:
     """Where the window remembers its size, its panels and its theme."""
     return QSettings(QSettings.Format.IniFormat, QSettings.Scope.UserScope, "Subdivision Studio", "window")
-
-
-def keep_log() -> Path:
-    """Start the log, where the system keeps such things; it never grows beyond three megabytes."""
-    folder = Path(QStandardPaths.writableLocation(QStandardPaths.StandardLocation.AppDataLocation))
-    path = folder / "studio.log"
-    root = logging.getLogger()
-    root.setLevel(logging.INFO)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        handler: logging.Handler = RotatingFileHandler(path, maxBytes=1_000_000, backupCount=2, encoding="utf-8")
-    except OSError:  # a home that cannot be written to is no reason not to teach
-        handler = logging.NullHandler()
-    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
-    root.addHandler(handler)
-    return path
 
 
 def catch_everything(window: Window, log: Path) -> None:

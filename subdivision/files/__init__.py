@@ -110,6 +110,8 @@ def _require_writable(path: Path) -> None:
 def _require_mesh(mesh: Mesh) -> None:
     if mesh.topology.n_faces == 0:
         raise Fault("the control object has no faces", "save a mesh or a net instead")
+    if mesh.topology.hidden.all():
+        raise Fault("no face is left to save: all touch the boundary, and this rule hides those", "choose another one")
     if not np.isfinite(mesh.points).all():
         v = int(np.flatnonzero(~np.isfinite(mesh.points).all(axis=1))[0])
         raise Fault(f"point {v} is not finite", "move it to a finite position first")
