@@ -1,5 +1,8 @@
 """Lessons as files."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -34,6 +37,15 @@ def test_with_steps_there_is_one_image_for_each_stop(tmp_path):
     assert len(written) == len(stops(SHORT))
     assert written[0].name == "figure_01_lane_riesenfeld-01.svg"
     assert len({p.read_bytes() for p in written}) == len(written)
+
+
+@pytest.mark.parametrize("display", ["", ":4321"])
+def test_without_a_screen_a_figure_is_drawn_and_nothing_is_complained_about(tmp_path, display):
+    command = [sys.executable, "-m", "app", "figures", "14", "--out", str(tmp_path), "--size", "320x180"]
+    done = subprocess.run(command, env={**os.environ, "DISPLAY": display}, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+    with Image.open(tmp_path / "figure_14_cube.png") as figure:
+        assert len(set(figure.convert("RGB").get_flattened_data())) > 100
 
 
 @pytest.mark.parametrize(("background", "corner"), [("black", (0, 0, 0)), ("transparent", (0, 0, 0, 0))])

@@ -56,10 +56,12 @@ class _Studio:
         if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
             os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
         import pyvista
+        from vtkmodules.vtkCommonCore import vtkLogger
         from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
         from app.draw.vtk import SAMPLES, ScenePainter
 
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # a DISPLAY that leads nowhere is not worth a warning
         self._plotter = pyvista.Plotter(off_screen=True, lighting="none", border=False)
         window: Any = self._plotter.render_window
         window.SetAlphaBitPlanes(1)
