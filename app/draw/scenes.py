@@ -17,6 +17,9 @@ from subdivision.rows import shown_faces
 MARKER = 0.036
 """Radius of an original point, relative to the radius of the control object."""
 
+ROOM = 40
+"""Up to so many vertices markers have that size; more of them are smaller."""
+
 CROWDED = 0.17
 """... but no more than this part of the typical edge."""
 
@@ -61,7 +64,8 @@ def _marker_radius(trace: Trace, frame: Frame) -> float:
     lengths = np.linalg.norm(frame.points[ends[:, 0]] - frame.points[ends[:, 1]], axis=1)
     apart = lengths[lengths > 1e-6 * max(size, 1e-9)]
     typical = float(np.median(apart)) if apart.size else size
-    return float(min(MARKER * size, CROWDED * typical))
+    fewer = (ROOM / max(frame.topology.n_vertices, ROOM)) ** (1 / 3)
+    return float(min(MARKER * size * fewer, CROWDED * typical))
 
 
 def _faint(t: Connectivity, n_points: int) -> Mask:

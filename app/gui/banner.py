@@ -10,6 +10,7 @@ from app.draw.theme import THEMES
 from app.gui.look import GRID, chosen_of, colour, icon, mixed
 from app.gui.session import Session
 from app.gui.timeline import tool_button
+from app.state import State
 from subdivision import Role
 
 
@@ -19,7 +20,7 @@ class Banner(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
-        self._is_fault = False
+        self._is_fault, self._said_in = False, session.state.lesson
         self.words = QLabel(wordWrap=True)
         self.words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.words.setFocusPolicy(Qt.FocusPolicy.NoFocus)
@@ -41,6 +42,13 @@ class Banner(QWidget):
             row.addWidget(each)
         self.hide()
 
+    def show_state(self, state: State) -> None:
+        """A message goes when the lesson it was said in goes; what is still under way stays."""
+        if state.lesson is not self._said_in and self._busy.isHidden():
+            self.hide()
+        if not self.isHidden():
+            self._close.setIcon(icon("close", state.options.theme))
+
     def say(self, sentence: str) -> None:
         """Something went wrong, or is worth knowing."""
         self._set(sentence, is_fault=True, is_busy=False)
@@ -60,7 +68,7 @@ class Banner(QWidget):
             self.hide()
 
     def _set(self, sentence: str, *, is_fault: bool, is_busy: bool) -> None:
-        self._is_fault = is_fault
+        self._is_fault, self._said_in = is_fault, self._session.state.lesson
         self.words.setText(sentence)
         self.setAccessibleName(sentence)
         self._close.setIcon(icon("close", self._session.state.options.theme))

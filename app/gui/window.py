@@ -75,7 +75,7 @@ class Window(QMainWindow):
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
-        self._views = (self.viewport, self.timeline, self.contents, self.shown, self.why)
+        self._views = (self.viewport, self.banner, self.timeline, self.contents, self.shown, self.why)
         self._restore()
         session.changed.connect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._follow_system)

@@ -2,7 +2,7 @@
 
 import sys
 import threading
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from app.draw.theme import THEMES
 from app.gui.application import catch_everything
 from app.gui.keys import COMMANDS, spelled_keys
 from app.gui.sheets import rows
-from app.state import axis_of, choose, forward, segments, stops, toggle
+from app.state import axis_of, choose, forward, open_lesson, segments, stops, toggle
 from lessons import all_lessons
 from subdivision import shapes
 
@@ -373,3 +373,11 @@ def test_an_uncaught_fault_is_a_sentence_in_the_window_and_its_traceback_is_logg
     assert "studio.log" in window.banner.words.text()
     assert "ZeroDivisionError" not in window.banner.words.text()
     assert "ZeroDivisionError: a bug" in caplog.text
+
+
+def test_a_message_goes_when_another_lesson_comes(window, lesson):
+    window.say("bad.obj, line 3: 'x' is not a number")
+    window.session.do(forward)
+    assert not window.banner.isHidden()
+    window.session.do(open_lesson, replace(lesson, id="another"))
+    assert window.banner.isHidden()
