@@ -25,6 +25,7 @@ from app.state import Options, at_stop, start, stops
 SIZES = [(1280, 720), (1920, 1080), (3840, 2160), (800, 600)]
 BLACK, WHITE, RED, GREEN = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 AHEAD = Camera(np.array([0.0, 0.0, 5.0]), np.zeros(3), np.array([0.0, 1.0, 0.0]), scale=1.0)
+PERSPECTIVE = replace(AHEAD, scale=0.0)
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -321,9 +322,11 @@ def test_every_shape_is_seen(shape):
     assert 0.01 < part(pixels, RED) < 0.3
 
 
-def test_a_hidden_marker_is_faint_and_not_gone():
-    front = image(of(Scene(AHEAD, faces=(square(),))), 300, 300)
-    faint = image(of(Scene(AHEAD, faces=(square(),), markers=(markers([[0, 0, -1]], colour=BLACK),))), 300, 300)
+@pytest.mark.parametrize(("camera", "near"), [(AHEAD, 0.0), (PERSPECTIVE, 0.0), (PERSPECTIVE, 4.0)])
+def test_a_hidden_marker_is_faint_and_not_gone_however_near_other_things_are(camera, near):
+    front = image(of(Scene(camera, faces=(square(),))), 300, 300)
+    points = markers([[0, 0, -1], [0.15, 0, near]], colour=BLACK)
+    faint = image(of(Scene(camera, faces=(square(),), markers=(points,))), 300, 300)
     changed = np.abs(faint[150, 150].astype(int) - front[150, 150]).max()
     assert 15 < changed < 90
 

@@ -16,7 +16,7 @@ from app.draw.picture import Faces, Markers, Shape
 from app.draw.solid import BEAD, CUBE, HALO_RADIUS, HIDDEN, MARKER_LIGHT, OCTAHEDRON, RING, RING_AXIS, across
 from subdivision.arrays import Floats, Indices
 
-LIFT = 1.8
+LIFT = 3.0
 """How far markers are brought forward in the z-buffer, in radii of the largest."""
 
 
@@ -47,7 +47,8 @@ class Glyphs:
     def lift(self, depth: float, perspective: float) -> None:
         """Bring all forward by a little more than their size.
 
-        ``depth`` is what a unit of space is in the z-buffer; ``perspective`` is 0 in a parallel view, else 1.
+        ``depth`` is what a unit of space is in the z-buffer, at distance 1 in a perspective view;
+        ``perspective`` is 0 in a parallel view, else 1.
         """
         for instances in self.drawn:
             instances.uniforms.SetUniformf("lift", LIFT * self._largest * depth)
@@ -186,11 +187,17 @@ def _only_rim(actor: Any) -> None:
 
 
 def _lifted(actor: Any) -> Any:
-    """Draw an actor a little nearer than it is, so that the surface it lies on does not cut it in halves."""
+    """Draw an actor a little nearer than it is, so that the surface it lies on does not cut it in halves.
+
+    What is twice as far has a fourth of the z-buffer for itself; ``gl_FragCoord.w`` is one over the distance.
+    """
     look = actor.GetShaderProperty()
     look.AddFragmentShaderReplacement(
-        "//VTK::Depth::Impl", True, "//VTK::Depth::Impl\n  gl_FragDepth = max(gl_FragCoord.z - lift, 0.0);\n", False
-    )
+        "//VTK::Depth::Impl", True,
+        "//VTK::Depth::Impl\n"
+        "  gl_FragDepth = max(gl_FragCoord.z - lift * gl_FragCoord.w * gl_FragCoord.w, 0.0);\n",
+        False,
+    )  # fmt: skip
     uniforms = look.GetFragmentCustomUniforms()
     uniforms.SetUniformf("lift", 0.0)
     uniforms.SetUniformf("perspective", 0.0)

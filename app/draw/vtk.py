@@ -48,6 +48,7 @@ class ScenePainter:
             glyphs.join(self.renderer, self._over)
         for renderer in (self.renderer, self._over):
             _light(renderer)
+            renderer.SetClippingRangeExpansion(0.01)  # VTK's own half brings the near plane to the eye
 
     def paint(self, scene: Scene, height: float) -> None:
         """Show ``scene``; ``height`` in pixels is the whole picture's, so that strokes scale with it."""
@@ -84,8 +85,9 @@ class ScenePainter:
                 renderer.ResetCameraClippingRange(low[0], high[0], low[1], high[1], low[2], high[2])
             camera = self.renderer.GetActiveCamera()
             near, far = camera.GetClippingRange()
+            parallel = camera.GetParallelProjection()
             for glyphs in self._markers.values():
-                glyphs.lift(1 / (far - near), 1.0 - camera.GetParallelProjection())
+                glyphs.lift((1.0 if parallel else near * far) / (far - near), 1.0 - parallel)
 
     def place(self, area: Area, width: float, height: float) -> None:
         """Fill the pane ``area`` of a window of ``width`` by ``height`` pixels."""
