@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent, QPainter, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import (
     QLineEdit,
@@ -25,7 +25,12 @@ OPENED = "Opened"
 
 
 class Contents(QWidget):
-    """Arrow keys choose, Enter or a click opens; the search box filters as one types."""
+    """Arrow keys choose, Enter or a click opens; the search box filters as one types.
+
+    ``found`` tells that a search has ended with a lesson.
+    """
+
+    found = Signal()
 
     def __init__(self, session: Session, lessons: Iterable[Lesson]) -> None:
         super().__init__()
@@ -117,6 +122,8 @@ class Contents(QWidget):
         if not chosen.isValid() or self.list.isRowHidden(chosen.row()):
             chosen = self._first_visible() or QModelIndex()
         self._open(chosen)
+        if chosen.isValid():
+            self.found.emit()
 
     def _open(self, index: QModelIndex) -> None:
         lesson = index.data(LESSON)

@@ -69,6 +69,7 @@ class Window(QMainWindow):
         self.banner = Banner(session)
         self.timeline = Timeline(session, self._button)
         self.contents = Contents(session, lessons.all_lessons())
+        self.contents.found.connect(self.leave_search)
         self.shown, self.why = Shown(session), Why()
         self._build()
         self.opener = Opener(session, self.banner)
@@ -122,8 +123,7 @@ class Window(QMainWindow):
         elif state.options.presenting:
             self.toggle_presenting()
         elif self.contents.search.hasFocus():
-            self.contents.search.clear()
-            self.viewport.setFocus()
+            self.leave_search()
 
     def toggle_presenting(self) -> None:
         is_on = not self.session.state.options.presenting
@@ -148,6 +148,11 @@ class Window(QMainWindow):
         self._sides["contents"].show()
         self.contents.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
         self.contents.search.selectAll()
+
+    def leave_search(self) -> None:
+        """Give the keys back to the lesson."""
+        self.contents.search.clear()
+        self.viewport.setFocus()
 
     def choose_theme(self, name: str) -> None:
         """A theme, or the system's own from now on."""

@@ -309,6 +309,9 @@ def test_searching_and_enter_open_a_lesson_from_the_keyboard(qtbot, window):
     QTest.keyClicks(window.contents.search, wanted.id)
     press(window, Key.Key_Return)
     assert window.session.state.lesson is wanted
+    assert window.contents.search.text() == ""
+    press(window, Key.Key_Space)
+    assert window.session.state.is_playing
 
 
 def test_a_saved_picture_is_finer_than_the_screen_and_the_window_goes_on(qtbot, window, tmp_path):
