@@ -31,5 +31,5 @@ def figure_14_cube() -> Iterator[Beat]:
                until=later[2], claim=set(later[0].topology.valence[8:]) == {4})
     yield play(told, later[3], "And again. The eight extraordinary vertices move apart, surrounded by ordinary ones.",
                until=later[5], claim=int(told.mesh_at(9).surface.extraordinary.sum()) == 8)
-    yield show(told, later[5], "384 faces, and the limit is C2, but at the eight marked vertices only C1.",
+    yield show(told, later[5], "384 faces. The limit is C², but at the eight marked vertices only C¹.",
                claim=later[5].topology.n_faces == 384)

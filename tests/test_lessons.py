@@ -71,7 +71,7 @@ def test_stages_continue_where_the_beat_before_ended(lesson: Lesson):
 
 @each_lesson
 def test_what_a_formula_and_a_caption_say_needs_no_missing_glyph(lesson: Lesson):
-    allowed = set(string.printable) | set("χ×→←∑·−≤’")
+    allowed = set(string.printable) | set("χ×→←∑·−≤’¹²")
     for beat in lesson.beats:
         assert set(beat.text + beat.formula) <= allowed
 
