@@ -126,7 +126,7 @@ class Topology:
         return bare.with_boundary(boundary)
 
     def with_boundary(self, rule: Boundary) -> Self:
-        """The same mesh under another boundary rule; inner sharpness stays."""
+        """The mesh under a boundary rule; inner sharpness stays.  Start from the mesh as read: pins stay in."""
         edges, vertices = self.edge_sharpness.copy(), self.vertex_sharpness.copy()
         edges[self.boundary] = 0.0 if rule is Boundary.LITERAL else INFINITELY_SHARP
         if rule is Boundary.EDGE_AND_CORNER:
