@@ -11,7 +11,7 @@ from pathlib import Path
 import lessons
 from app.figures import BACKGROUNDS, FORMATS, FigureError, render
 from lessons.script import Lesson
-from subdivision import Boundary, Mesh, TopologyError, files, subdivide
+from subdivision import Boundary, Mesh, Scheme, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
 from subdivision.exact import Exact, spelled
 from subdivision.schemes import SCHEMES
@@ -101,7 +101,7 @@ def subdivide_file(options: argparse.Namespace) -> None:
     mesh = files.read(options.input)
     scheme = NAMES[options.scheme]
     control = Mesh(mesh.surface.with_boundary(Boundary(options.boundary)), mesh.points)
-    _require_room(control, options.levels)
+    _require_room(control, scheme, options.levels)
     fine = subdivide(control, scheme, options.levels)
     if options.limit:
         from subdivision.limit import limit_points
@@ -228,9 +228,8 @@ def _lesson(name: str) -> Lesson:
         raise Fault(unknown.args[0]) from unknown
 
 
-def _require_room(control: Mesh, levels: int) -> None:
-    t = control.surface
-    faces = t.n_halfedges * 4 ** (levels - 1) if not t.is_triangular and levels else t.n_faces * 4**levels
+def _require_room(control: Mesh, scheme: Scheme, levels: int) -> None:
+    faces = scheme.faces_after(control.surface, levels)
     if faces > MOST_FACES:
         raise Fault(f"{levels} levels would make {faces:,} faces; choose fewer levels (at most {MOST_FACES:,} faces)")
 

@@ -50,10 +50,7 @@ def natural_scheme(mesh: Mesh) -> Scheme:
 
 def affordable(mesh: Mesh, scheme: Scheme) -> int:
     """How many levels stay within the budget of faces: 0, 1 or 2."""
-    faces = mesh.topology.n_faces
-    after = [4 * faces if scheme in (TRIANGLE_CENTROID, QUAD_CENTROID) else int(mesh.topology.face_sizes.sum())]
-    after.append(4 * after[0])
-    return sum(count <= BUDGET for count in after[:LEVELS])
+    return sum(scheme.faces_after(mesh.surface, level) <= BUDGET for level in range(1, LEVELS + 1))
 
 
 def _beats(told: Trace, levels: int) -> Iterator[Beat]:

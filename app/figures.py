@@ -1,7 +1,5 @@
 """Figures of lessons as files, without a window and without a screen."""
 
-import os
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from io import BytesIO
@@ -11,6 +9,7 @@ from app.draw.compose import compose
 from app.draw.picture import Picture
 from app.state import Options, State, at_stop, start, stops
 from lessons.script import Lesson
+from subdivision.files.saving import save
 
 FORMATS = ("png", "svg", "gif")
 BACKGROUNDS = ("white", "black", "transparent", "theme")
@@ -147,20 +146,8 @@ def _folder(folder: Path) -> Path:
 
 
 def _write(path: Path, data: bytes) -> Path:
-    """The whole file or none: written beside it under another name, then renamed."""
     try:
-        handle, beside = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent)
+        save(path, [data])
     except OSError as fault:
         raise FigureError(f"{path} cannot be written: {fault.strerror or fault}; choose another folder") from fault
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        mask = os.umask(0)
-        os.umask(mask)
-        Path(beside).chmod(0o666 & ~mask)
-        Path(beside).replace(path)
-    except OSError as fault:
-        raise FigureError(f"{path} cannot be written: {fault.strerror or fault}") from fault
-    finally:
-        Path(beside).unlink(missing_ok=True)
     return path

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
+from typing import TypedDict, Unpack
 
 import numpy as np
 
@@ -140,39 +141,26 @@ def lesson(title: str, *, section: str, ours: str = "") -> Callable[[Script], Le
     return lambda script: Lesson(script.__name__, title, section, script, ours)
 
 
-def show(
-    trace: Trace,
-    after: Stage | None,
-    text: str,
-    *,
-    formula: str = "",
-    notes: str = "",
-    stencil: Stencil | None = None,
-    span: int = 1,
-    look: Look | None = None,
-    claim: bool = True,
-) -> Beat:
+class Said(TypedDict, total=False):
+    """What ``show`` and ``play`` may add to their sentence: the fields of a ``Beat``."""
+
+    formula: str
+    notes: str
+    stencil: Stencil | None
+    span: int
+    look: Look
+    claim: bool
+
+
+def show(trace: Trace, after: Stage | None, text: str, **said: Unpack[Said]) -> Beat:
     """A still picture of the control object ``after`` a stage (None: before the first)."""
     at = trace.index(after) + 1 if after else 0
-    return Beat(text, (View(trace, at, at),), formula, notes, stencil, span, look or look_at(trace), claim)
+    return _beat(trace, (at, at), text, said)
 
 
-def play(
-    trace: Trace,
-    first: Stage,
-    text: str,
-    *,
-    until: Stage | None = None,
-    formula: str = "",
-    notes: str = "",
-    stencil: Stencil | None = None,
-    span: int = 1,
-    look: Look | None = None,
-    claim: bool = True,
-) -> Beat:
+def play(trace: Trace, first: Stage, text: str, *, until: Stage | None = None, **said: Unpack[Said]) -> Beat:
     """One stage, animated; or all stages from ``first`` ``until`` another one."""
-    start, stop = trace.index(first), trace.index(until or first) + 1
-    return Beat(text, (View(trace, start, stop),), formula, notes, stencil, span, look or look_at(trace), claim)
+    return _beat(trace, (trace.index(first), trace.index(until or first) + 1), text, said)
 
 
 def beside(beat: Beat, *others: View) -> Beat:
@@ -193,3 +181,8 @@ def fragment(mesh: Mesh) -> Mesh:
 def look_at(trace: Trace) -> Look:
     """From above at what lies in the x-y plane, else from the front right."""
     return FLAT if np.ptp(trace.control.points[:, 2]) < 1e-9 else Look()
+
+
+def _beat(trace: Trace, stretch: tuple[float, float], text: str, said: Said) -> Beat:
+    said.setdefault("look", look_at(trace))
+    return Beat(text, (View(trace, *stretch),), **said)

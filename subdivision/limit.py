@@ -34,7 +34,7 @@ def limit_stage(scheme: Scheme, topology: Connectivity) -> Stage:
         If the scheme refuses the control object or tells no limits, if its boundary is literal, or
         if sharpness takes too many levels to wear off.
     """
-    _accepted(scheme, topology)
+    scheme.require(topology)
     if scheme.limit is None:
         raise TopologyError(f"{scheme.title} tells no limit positions")
     if not isinstance(topology, Topology):
@@ -91,7 +91,7 @@ def tangents(scheme: Scheme, topology: Connectivity) -> tuple[Operator, Operator
     TopologyError
         As ``limit_stage``.
     """
-    _accepted(scheme, topology)
+    scheme.require(topology)
     if scheme.tangents is None or not isinstance(topology, Topology):
         raise TopologyError(f"{scheme.title} tells no tangents")
     settled, before = _settled(scheme, topology)
@@ -115,18 +115,11 @@ def levels_to_settle(scheme: Scheme, topology: Topology) -> int:
     """How many steps until the scheme's limit rules hold."""
     sharpness = np.concatenate([topology.edge_sharpness, topology.vertex_sharpness])
     wearing = ceil(float(sharpness[sharpness < INFINITELY_SHARP].max(initial=0.0)))
-    first = topology.face_sizes[:1]
-    made = scheme.step(Topology.from_corners(first, np.arange(first[0]))).topology.face_sizes[0]
-    return max(wearing, int((topology.face_sizes != made).any()))
+    return max(wearing, int((topology.face_sizes != scheme.made_size(topology)).any()))
 
 
 def _lengths(vectors: Floats) -> Floats:
     return np.asarray(np.linalg.norm(vectors, axis=1, keepdims=True))
-
-
-def _accepted(scheme: Scheme, topology: Connectivity) -> None:
-    if reason := scheme.refuses(topology):
-        raise TopologyError(f"{scheme.title} cannot subdivide this: {reason}")
 
 
 def _settled(scheme: Scheme, topology: Topology) -> tuple[Topology, Operator | None]:
@@ -137,7 +130,7 @@ def _settled(scheme: Scheme, topology: Topology) -> tuple[Topology, Operator | N
             "choose another boundary"
         )
     levels = levels_to_settle(scheme, topology)
-    faces = topology.n_faces if levels == 0 else topology.n_halfedges * 4 ** (levels - 1)
+    faces = scheme.faces_after(topology, levels)
     if faces > MOST_FACES:
         raise TopologyError(
             f"the largest finite sharpness takes {levels} levels to wear off, which makes {faces:,} faces, "

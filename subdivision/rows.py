@@ -162,7 +162,11 @@ Connectivity: TypeAlias = Topology | Grid | Polyline
 """What a control object is connected by."""
 
 
+def shown_corners(t: Connectivity) -> Mask:
+    """(n_corners,) bool: corners of faces that are part of the surface."""
+    return np.repeat(~t.hidden, t.face_sizes)
+
+
 def shown_faces(t: Connectivity) -> tuple[Indices, Indices]:
     """Sizes and corners, laid end to end, of the faces that are part of the surface."""
-    shown = ~t.hidden
-    return t.face_sizes[shown], t.origin[np.repeat(shown, t.face_sizes)]
+    return t.face_sizes[~t.hidden], t.origin[shown_corners(t)]

@@ -3,13 +3,13 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from subdivision.manifold import TopologyError
 from subdivision.operators import Operator
 from subdivision.rows import Connectivity
 from subdivision.stage import Stage, Step
 from subdivision.topology import Topology
-
-NOT_A_MESH = "it subdivides polygon meshes"
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,33 @@ class Scheme:
         """Whether it can subdivide a control object."""
         return not self.refuses(topology)
 
+    def require(self, topology: Connectivity) -> None:
+        """Raise the ``TopologyError`` that says why the scheme refuses a control object, if it does."""
+        if reason := self.refuses(topology):
+            raise TopologyError(f"{self.title} cannot subdivide this: {reason}")
+
+    def faces_after(self, topology: Topology, levels: int) -> int:
+        """How many faces ``levels`` steps make of a mesh, told without making them.
+
+        Raises
+        ------
+        TopologyError
+            If the scheme refuses the mesh.
+        """
+        self.require(topology)
+        if levels == 0:
+            return topology.n_faces
+        sizes, counts = np.unique(topology.face_sizes, return_counts=True)
+        first: int = sum(int(n) * self._of_one_face(int(size)).n_faces for size, n in zip(sizes, counts, strict=True))
+        return first * int(self._of_one_face(self.made_size(topology)).n_faces ** (levels - 1))
+
+    def made_size(self, topology: Topology) -> int:
+        """How many corners the faces have that the scheme makes of a mesh."""
+        return int(self._of_one_face(int(topology.face_sizes[0])).face_sizes[0])
+
+    def _of_one_face(self, size: int) -> Connectivity:
+        return self.step(Topology.from_corners(np.array([size]), np.arange(size))).topology
+
     def step(self, topology: Connectivity, telling: str | None = None) -> Step:
         """One subdivision step on ``topology``.
 
@@ -56,8 +83,7 @@ class Scheme:
         TopologyError
             If the scheme refuses the control object, or knows no such telling.
         """
-        if reason := self.refuses(topology):
-            raise TopologyError(f"{self.title} cannot subdivide this: {reason}")
+        self.require(topology)
         if telling is not None and telling not in self.tellings:
             raise TopologyError(f"{self.title} has no telling '{telling}'; it has {', '.join(self.tellings)}")
         return self.tellings[telling or next(iter(self.tellings))](topology)

@@ -360,10 +360,19 @@ def test_a_transparent_picture_is_clear_where_nothing_is():
     assert pixels[150, 150, 1] > 120
 
 
+def camera_of(renderer) -> Camera:
+    """Where a renderer is seen from."""
+    there = renderer.GetActiveCamera()
+    return Camera(
+        np.array(there.GetPosition()), np.array(there.GetFocalPoint()), np.array(there.GetViewUp()),
+        float(there.GetViewAngle()), float(there.GetParallelScale()) if there.GetParallelProjection() else 0.0,
+    )  # fmt: skip
+
+
 def test_a_camera_survives_the_renderer():
     import pyvista
 
-    from app.draw.vtk import ScenePainter, camera_of
+    from app.draw.vtk import ScenePainter
 
     plotter = pyvista.Plotter(off_screen=True, shape=(1, 2), window_size=(200, 100))
     painter = ScenePainter(plotter, (0, 1))

@@ -10,7 +10,7 @@ import lessons
 from app.draw.compose import compose
 from app.draw.picture import Diagram, Scene
 from app.draw.theme import THEMES
-from app.state import at_stop, choose, seek, segments, start, stops
+from app.state import at_stop, choose, drag, seek, segments, start, stops
 from lessons.script import Lesson
 from subdivision import Role
 
@@ -127,3 +127,10 @@ def test_strokes_spread_from_four_corners_to_each_centroid_and_from_three_centro
     spread = [strokes(coming, part) for part in (0.1, 0.5)]
     early, late = (np.linalg.norm(np.diff(s.points[s.pairs], axis=1)) for s in spread)
     assert early < late
+
+
+def test_dragging_a_point_moves_no_camera():
+    state = at_stop(start(lessons.find("14")), stops(lessons.find("14"))[3])
+    before, after = (compose(s).scenes[0].camera for s in (state, drag(state, 0, (-9.0, -9.0, -9.0))))
+    assert np.array_equal(before.position, after.position)
+    assert np.array_equal(before.focal, after.focal)

@@ -9,7 +9,7 @@ import naive
 import numpy as np
 import pytest
 
-from subdivision import Mesh, Scheme, Topology, shapes, subdivide
+from subdivision import Mesh, Scheme, Topology, TopologyError, shapes, subdivide
 from subdivision.arrays import Floats
 from subdivision.schemes import CATMULL_CLARK, LOOP, LOOP_WARREN, QUAD_CENTROID, SCHEMES, TRIANGLE_CENTROID
 
@@ -229,3 +229,17 @@ def test_loop_is_rounder_than_centroid_averaging_by_the_stated_ratios(
 
 def test_every_scheme_has_its_stencils_tested_here() -> None:
     assert {scheme.name for scheme in SCHEMES} == set(naive.BETAS) | set(naive.QUAD_WEIGHTS)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES, ids=lambda each: each.name)
+@pytest.mark.parametrize("name", ["cube", "icosahedron", "plus-sign", "triangle-fan", "quad-fan"])
+def test_faces_are_counted_before_they_are_made(scheme: Scheme, name: str) -> None:
+    topology = shapes.SHAPES[name]().surface
+    if not scheme.accepts(topology):
+        with pytest.raises(TopologyError, match="cannot subdivide"):
+            scheme.faces_after(topology, 2)
+        return
+    made = topology
+    for levels in range(4):
+        assert scheme.faces_after(topology, levels) == made.n_faces
+        made = scheme.step(made).topology

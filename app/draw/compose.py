@@ -5,6 +5,7 @@ Nothing is painted: the result is a display list, so that a test can read "four 
 """
 
 from app.draw import diagrams, motion
+from app.draw.framing import camera
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
 from app.draw.scenes import CONTRIBUTOR, scene
 from app.draw.theme import NAMES, THEMES, Theme
@@ -62,7 +63,8 @@ def _content(state: State, view: View, theme: Theme) -> Scene | Diagram:
         return diagrams.diagram(trace, at, theme)
     stencil, span = stencil_of(state, view)
     frame = trace.frame(motion.eased(at))
-    return scene(frame, trace, state.now.look, state.options, theme, stencil, span)
+    seen = camera(view.trace, state.now.look)  # of the trace as the lesson has it: dragging a point moves no camera
+    return scene(frame, trace, seen, state.options, theme, stencil, span)
 
 
 def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:

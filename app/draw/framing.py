@@ -12,8 +12,11 @@ from subdivision.arrays import Floats
 FRAME = 1.4
 """Width to height of the part of a pane that the control object fills; wider panes have room beside it."""
 
+FLAT_FRAME = 1.55
+"""The same for what is seen in parallel."""
+
 FILLED = 0.86
-"""How much of it."""
+"""How much of the frame."""
 
 
 def camera(trace: Trace, look: Look) -> Camera:

@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.draw.framing import FLAT_FRAME, FRAME
 from app.draw.labels import placed
 from app.draw.picture import Box, Camera, Diagram, Note, Pane, Picture
-from app.draw.primitives import LEAST, Area, Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, wrapped
 
 __all__ = ["Area", "Mark", "Plate", "Primitive", "Stroke", "Text", "extent", "fitted", "overlay", "pane_areas"]
@@ -22,9 +23,6 @@ MARGIN, GAP = 26.0, 14.0
 TITLE, PANE_TITLE, CORNER, LEGEND, CAPTION, FORMULA, NOTE = 36.0, 27.0, 25.0, 25.0, 36.0, 36.0, 25.0
 TIGHT = 0.6
 """... but in a box too small for it, where smaller type is better than type across the border."""
-
-FRAME, FLAT_FRAME = 1.4, 1.55
-"""Width to height of what a camera must show; a narrower pane shows it smaller."""
 
 APART = 1.4
 """Between the caption and the formula beside it, relative to the caption's size."""
@@ -92,7 +90,7 @@ def fitted(camera: Camera, area: Area) -> Camera:
 def extent(text: Text) -> Area:
     """The room some type takes."""
     width, ascent, descent = measure(text.text, text.size, text.bold)
-    left = text.x - {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width
+    left = text.x - ANCHOR[text.align] * width
     return left, text.y - ascent, width, ascent + descent
 
 

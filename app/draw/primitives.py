@@ -8,6 +8,12 @@ from typing import TypeAlias
 
 from app.draw.picture import Colour, Shape
 
+ANCHOR = {"left": 0.0, "center": 0.5, "right": 1.0}
+"""Where in its width a text is held, by its alignment."""
+
+RIM = 0.28
+"""Width of the rim that sets type off from what lies under it, relative to the size of the type."""
+
 
 @dataclass(frozen=True)
 class Text:

@@ -18,12 +18,9 @@ from numpy.typing import NDArray
 from app.draw.flat import FLAT, Part, Polygon, Ring
 from app.draw.layout import fitted, overlay, pane_areas
 from app.draw.picture import Colour, Picture, Scene
-from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, path
 from subdivision.arrays import Floats
-
-HALO = 0.28
-"""Width of the rim that sets type off from what lies under it, relative to the size of the type."""
 
 Pixels = NDArray[np.uint8]
 """(height, width, 4): red, green, blue, opacity."""
@@ -99,7 +96,6 @@ class _Studio:
         flat = to_numpy(grab.GetOutput().GetPointData().GetScalars())
         return np.array(flat.reshape(size[1], size[0], 4)[::-1], dtype=np.uint8)
 
-
     def close(self) -> None:
         self._painter.close()
         self._plotter.close()
@@ -145,11 +141,11 @@ class _Brush:
                 self._mark(each)
 
     def _text(self, text: Text) -> None:
-        shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * measure(text.text, text.size, text.bold)[0]
+        shift = ANCHOR[text.align] * measure(text.text, text.size, text.bold)[0]
         glyphs = path(text.text, text.size, text.bold)
         placed = glyphs.transformed(Affine2D().scale(1, -1).translate(text.x - shift, text.y))
         if text.halo is not None:
-            self._draw(placed, None, text.halo, HALO * text.size, text.opacity)
+            self._draw(placed, None, text.halo, RIM * text.size, text.opacity)
         self._draw(placed, text.colour, None, 0.0, text.opacity)
 
     def _mark(self, mark: Mark) -> None:

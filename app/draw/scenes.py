@@ -4,15 +4,13 @@ import numpy as np
 
 from app.draw import motion
 from app.draw.cues import cues
-from app.draw.framing import camera
-from app.draw.picture import Faces, Label, Lines, Markers, Scene, Shape
+from app.draw.picture import Camera, Faces, Label, Lines, Markers, Scene, Shape
 from app.draw.theme import NAMES, SHAPES, SIZES, Theme
 from app.state import Options
-from lessons.script import Look
 from subdivision import Connectivity, Frame, Role, Stencil, Topology, Trace
 from subdivision.arrays import Mask
 from subdivision.exact import spelled_together
-from subdivision.rows import shown_faces
+from subdivision.rows import shown_corners, shown_faces
 
 MARKER = 0.036
 """Radius of an original point, relative to the radius of the control object."""
@@ -40,21 +38,22 @@ CONTRIBUTOR, POINTED_OUT = "contributor", "pointed out"
 
 
 def scene(
-    frame: Frame, trace: Trace, look: Look, options: Options, theme: Theme, stencil: Stencil | None, span: int
+    frame: Frame, trace: Trace, seen: Camera, options: Options, theme: Theme, stencil: Stencil | None, span: int
 ) -> Scene:
-    """One instant of a trace in space."""
+    """One instant of a trace in space, ``seen`` by a camera."""
     radius = _marker_radius(trace, frame)
     faint = _faint(frame.topology, len(frame.points))
+    faint_before = _faint(frame.before.topology, len(frame.old_points))
     faces = _faces(frame, theme) if options.surface else ()
     lines = (*_net(frame, theme, options), *_ghost(frame, theme, options), *_belonging(frame, theme, options))
     if options.ghost:
-        lines = (*lines, *cues(frame, theme, faint, _faint(frame.before.topology, len(frame.old_points))))
-    markers = (*_leaving(frame, theme, options, radius), *_markers(frame, theme, options, radius, faint))
+        lines = (*lines, *cues(frame, theme, faint, faint_before))
+    markers = (*_leaving(frame, theme, options, radius, faint_before), *_markers(frame, theme, options, radius, faint))
     labels: tuple[Label, ...] = _numbers(frame, theme, options)
     if stencil is not None and options.weights:
         picked, rays, words = _pointed_out(frame, trace, stencil, span, theme, radius)
         markers, lines, labels = (*markers, *picked), (*lines, *rays), (*labels, *words)
-    return Scene(camera(trace, look), faces, lines, markers, labels)
+    return Scene(seen, faces, lines, markers, labels)
 
 
 def _marker_radius(trace: Trace, frame: Frame) -> float:
@@ -84,8 +83,8 @@ def _shown_vertices(t: Connectivity) -> Mask:
 
 def _shown_helpers(t: Connectivity, helpers: int) -> Mask:
     """A helper belongs to the face, or to the corner of a face, that has its number."""
-    face = np.arange(t.n_faces) if helpers == t.n_faces else np.repeat(np.arange(t.n_faces), t.face_sizes)
-    return np.asarray(~t.hidden[face]) if len(face) == helpers else np.ones(helpers, dtype=bool)
+    shown = ~t.hidden if helpers == t.n_faces else shown_corners(t)
+    return shown if len(shown) == helpers else np.ones(helpers, dtype=np.bool_)
 
 
 def _faces(frame: Frame, theme: Theme) -> tuple[Faces, ...]:
@@ -131,8 +130,7 @@ def _belonging(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...
     if not options.helpers or not _is_cornered(frame.topology, len(frame.points)):
         return ()
     t, n = frame.topology, frame.topology.n_vertices
-    shown = ~t.hidden[np.repeat(np.arange(t.n_faces), t.face_sizes)]
-    pairs = np.stack([t.origin, n + np.arange(len(t.origin))], axis=1)[shown]
+    pairs = np.stack([t.origin, n + np.arange(len(t.origin))], axis=1)[shown_corners(t)]
     return (Lines(frame.points, pairs, theme.roles[Role.CENTROID], 2.4 * theme.stroke, float(frame.progress)),)
 
 
@@ -150,11 +148,11 @@ def _ghost(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     return (Lines(before.points, before.topology.ends[shown], theme.net, 2.4 * theme.stroke, 0.7, dashed=True),)
 
 
-def _leaving(frame: Frame, theme: Theme, options: Options, radius: float) -> tuple[Markers, ...]:
+def _leaving(frame: Frame, theme: Theme, options: Options, radius: float, faint: Mask) -> tuple[Markers, ...]:
     """What no point continues, such as helpers that have done their work, fades while the stage plays."""
     if frame.progress == 1 or not len(frame.leaving):
         return ()
-    shown = frame.leaving[~_faint(frame.before.topology, len(frame.old_points))[frame.leaving]]
+    shown = frame.leaving[~faint[frame.leaving]]
     cornered = _is_cornered(frame.before.topology, len(frame.old_points))
     found = []
     for role in Role:

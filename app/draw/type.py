@@ -18,8 +18,6 @@ from subdivision.arrays import Floats, Indices
 FONTS = ASSETS / "fonts"
 FAMILY = "Inter"
 REGULAR, BOLD = FONTS / "Inter-Regular.otf", FONTS / "Inter-SemiBold.otf"
-FILES = tuple(FONTS / f"Inter-{name}.otf" for name in ("Regular", "Italic", "Medium", "SemiBold", "Bold"))
-"""For a window that must register them before it can use them."""
 
 MATHEMATICS, MATHEMATICS_SIZE = "stix", 1.12
 """Its letters are lower than Inter's: set larger, both look alike."""

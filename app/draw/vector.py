@@ -12,12 +12,9 @@ from app.draw.flat import FLAT, Disc, Polygon
 from app.draw.layout import overlay, pane_areas
 from app.draw.markup import code, faded, number, places
 from app.draw.picture import Picture, Scene
-from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
 from app.draw.projection import projected
 from app.draw.type import FAMILY, measure, outline, runs
-
-HALO = 0.28
-"""Width of the rim that sets type off from what lies under it, relative to the size of the type."""
 
 LETTERS = {1: "M", 2: "L", 3: "Q", 4: "C", 79: "Z"}
 ANCHORS = {"left": "start", "center": "middle", "right": "end"}
@@ -67,12 +64,10 @@ def _plate(plate: Plate) -> str:
 def _text(text: Text) -> Iterator[str]:
     """Words as type; mathematics, and the rim behind both, as outlines."""
     width = measure(text.text, text.size, text.bold)[0]
-    left = text.x - {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width
+    left = text.x - ANCHOR[text.align] * width
     look = f'fill="{code(text.colour)}"{faded(text.opacity)}'
     if text.halo is not None:
-        rim = (
-            f'fill="none" stroke="{code(text.halo)}" stroke-width="{number(HALO * text.size)}" stroke-linejoin="round"'
-        )
+        rim = f'fill="none" stroke="{code(text.halo)}" stroke-width="{number(RIM * text.size)}" stroke-linejoin="round"'
         yield f'<path d="{_outline(text.text, left, text)}" {rim}{faded(text.opacity)}/>'
     parts = runs(text.text, text.bold)
     for run in parts:

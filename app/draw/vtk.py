@@ -112,15 +112,6 @@ class ScenePainter:
         self._over.RemoveAllViewProps()
 
 
-def camera_of(renderer: Any) -> Camera:
-    """Where a renderer is seen from now, for instance after the user has turned it."""
-    there = renderer.GetActiveCamera()
-    return Camera(
-        np.array(there.GetPosition()), np.array(there.GetFocalPoint()), np.array(there.GetViewUp()),
-        float(there.GetViewAngle()), float(there.GetParallelScale()) if there.GetParallelProjection() else 0.0,
-    )  # fmt: skip
-
-
 # -- what is in a renderer --------------------------------------------------------------------
 
 

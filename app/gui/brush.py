@@ -8,12 +8,9 @@ from PySide6.QtGui import QPainter, QPainterPath, QPen, QPolygonF
 
 from app.draw.flat import FLAT, Polygon, Ring
 from app.draw.picture import Colour
-from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, outline
 from app.gui.look import colour
-
-HALO = 0.28
-"""Width of the rim that sets type off from what lies under it, relative to the size of the type."""
 
 
 def paint(painter: QPainter, primitives: Iterable[Primitive]) -> None:
@@ -36,12 +33,12 @@ def type_(painter: QPainter, text: Text) -> None:
     """Words and mathematics, as the same outlines that every other painter uses."""
     width = measure(text.text, text.size, text.bold)[0]
     painter.save()
-    painter.translate(text.x - {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width, text.y)
+    painter.translate(text.x - ANCHOR[text.align] * width, text.y)
     painter.scale(text.size, text.size)
     painter.setOpacity(text.opacity)
     path = glyphs(text.text, text.bold)
     if text.halo is not None:
-        pen = _pen(text.halo, HALO)
+        pen = _pen(text.halo, RIM)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         painter.strokePath(path, pen)
     painter.fillPath(path, colour(text.colour))

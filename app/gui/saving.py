@@ -3,10 +3,11 @@
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QBuffer, QIODevice, QSize
 from PySide6.QtGui import QImage, QOpenGLContext
 
 from app.draw.picture import Picture
+from subdivision.files.saving import save as write
 
 WIDTH = 1920
 """Pixels: a saved picture is at least so wide, and at least twice as fine as on the screen."""
@@ -29,17 +30,24 @@ def save(picture: Picture, path: Path, seen: QSize) -> Path:
     path = path if path.suffix else path.with_suffix(".png")
     if path.suffix.lower() not in SUFFIXES:
         raise SavingError(f"Pictures end in {' or '.join(SUFFIXES)}, not in {path.suffix}: choose another name.")
-    if path.suffix.lower() == ".png":
-        if not image(picture, seen).save(str(path)):
-            raise SavingError(f"{path} could not be written: choose another folder.")
-        return path
-    from app.draw.vector import svg
-
     try:
-        path.write_text(svg(picture, *_size(seen)), encoding="utf-8")
+        write(path, [_png(picture, seen) if path.suffix.lower() == ".png" else _svg(picture, seen)])
     except OSError as fault:
         raise SavingError(f"{path} could not be written ({fault.strerror}): choose another folder.") from fault
     return path
+
+
+def _png(picture: Picture, seen: QSize) -> bytes:
+    held = QBuffer()
+    held.open(QIODevice.OpenModeFlag.WriteOnly)
+    image(picture, seen).save(held, "PNG")  # type: ignore[call-overload]
+    return bytes(held.data().data())
+
+
+def _svg(picture: Picture, seen: QSize) -> bytes:
+    from app.draw.vector import svg
+
+    return svg(picture, *_size(seen)).encode()
 
 
 def image(picture: Picture, seen: QSize) -> QImage:

@@ -82,10 +82,6 @@ class Viewport(QWidget):
         self._empty.deleteLater()
         self.show_state(self._state)
 
-    @property
-    def has_started(self) -> bool:
-        return self._plotter is not None
-
     def close_vtk(self) -> None:
         """Give everything back, in the order VTK needs."""
         self._calm.stop()

@@ -10,7 +10,7 @@ import pytest
 from app.draw.picture import Camera
 from app.explore import BUDGET, affordable, explored, natural_scheme
 from app.gui.turn import REST
-from subdivision import shapes
+from subdivision import Grid, Mesh, shapes
 from subdivision.schemes import CATMULL_CLARK, QUAD_CENTROID, TRIANGLE_CENTROID
 
 SPACE = Camera(np.array([3.0, -4.0, 2.0]), np.zeros(3), np.array([0.0, 0.0, 1.0]))
@@ -41,12 +41,11 @@ def test_a_mesh_gets_the_scheme_that_suits_its_faces(mesh, scheme):
 
 
 def test_a_mesh_beyond_the_budget_is_played_for_fewer_levels_and_says_so():
-    net = shapes.cube()
-    for levels in (2, 1, 0):
-        faces = BUDGET // 4**levels
-        counted = type("Counted", (), {"n_faces": faces})()
-        assert affordable(type("Mesh", (), {"topology": counted})(), QUAD_CENTROID) == levels
-    assert affordable(net, CATMULL_CLARK) == 2
+    for levels, (n, m) in {2: (25, 50), 1: (50, 100), 0: (100, 200)}.items():
+        assert n * m == BUDGET // 4**levels
+        sheet = Grid(n + 1, m + 1).mesh()
+        assert affordable(Mesh(sheet, np.zeros((sheet.n_vertices, 3))), QUAD_CENTROID) == levels
+    assert affordable(shapes.cube(), CATMULL_CLARK) == 2
 
 
 def test_no_turn_leaves_the_camera_where_the_lesson_put_it():
