@@ -18,7 +18,7 @@ SENTENCES = {
     "edge points": "An edge point on every edge.",
     "vertex points": "Every old vertex moves to its vertex point.",
     "connect": "Connect the points: the new topology.",
-    "centroids": "Mark the centroids: the green helpers, not vertices.",
+    "centroids": "Mark the centroids: the {{centroid}} helpers, not vertices.",
     "geometry": "New geometry: every vertex moves to the centroid of the centroids around it.",
 }
 

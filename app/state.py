@@ -60,11 +60,21 @@ class Options:
     labels: bool = False
     valences: bool = False
     legend: bool = True
+    as_caption: bool = False
     theme: str = "light"
     speed: float = 1.0
     through: bool = False
     presenting: bool = False
     blank: bool = False
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A point that is pointed at: number ``point`` after ``stage`` stages, in pane number ``pane``."""
+
+    pane: int
+    stage: int
+    point: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +90,7 @@ class State:
     at: float = 0.0
     goal: Stop | None = None
     wait: float = 0.0
-    focus: int | None = None
+    focus: Spot | None = None
     edits: Edits = ()
     options: Options = field(default_factory=Options)
 
@@ -298,9 +308,30 @@ def seek(state: State, axis: float) -> State:
     return replace(state, beat=s.beat, at=at, goal=None, wait=0.0, focus=None)
 
 
-def look(state: State, point: int | None) -> State:
-    """Point at ``point`` of the leading view: its stencil is shown; None: at nothing."""
-    return replace(state, focus=point)
+def look(state: State, spot: Spot | None) -> State:
+    """Point at a point: its stencil is shown; None: at nothing."""
+    return replace(state, focus=spot)
+
+
+def turn_knob(state: State, number: int, by: int) -> State:
+    """Change the lesson's knob number ``number`` (from 0) by ``by``; stay at the same place of the story."""
+    if not 0 <= number < len(state.lesson.knobs):
+        return state
+    knob, value = state.lesson.knobs[number], state.lesson.values[number]
+    return set_knob(state, knob.name, value + by)
+
+
+def set_knob(state: State, name: str, value: int) -> State:
+    """Set a knob of the lesson, held within its limits; stay at the same place of the story."""
+    other = state.lesson.turned(**{name: value})
+    if other is state.lesson:
+        return state
+    state = settle(state)
+    old, new = stops(state.lesson), stops(other)
+    here = max(k for k, s in enumerate(old) if (s.beat, s.at) <= (state.beat, state.at) or k == 0)
+    from_end = len(old) - 1 - here
+    k = min(here, len(new) - 1) if here < from_end else max(len(new) - 1 - from_end, 0)
+    return at_stop(replace(state, lesson=other, edits=()), new[k])
 
 
 def drag(state: State, vertex: int, to: tuple[float, float, float]) -> State:

@@ -10,7 +10,7 @@ from subdivision.schemes import lane_riesenfeld
 DEGREE = 3
 
 
-@lesson("Figure 1  Lane-Riesenfeld curves", section="2 Box splines")
+@lesson("Figure 1  Lane-Riesenfeld curves", section="2.1 Split and average")
 def figure_01_lane_riesenfeld() -> Iterator[Beat]:
     told = trace(lane_riesenfeld(DEGREE), shapes.polygon(4))
     split, once, twice, thrice = told.stages

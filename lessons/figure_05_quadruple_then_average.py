@@ -9,7 +9,7 @@ from subdivision.schemes import tensor_product
 LOOK = Look(azimuth=-40.0, elevation=45.0)
 
 
-@lesson("Figure 5  Quadruple, average", section="2 Box splines")
+@lesson("Figure 5  Quadruple, average", section="2.1 Split and average")
 def figure_05_quadruple_then_average() -> Iterator[Beat]:
     net = shapes.net(3, 3)
     told = trace(tensor_product(1, 1), net, telling="quadruple, then average")

@@ -3,14 +3,15 @@
 from collections.abc import Iterator
 
 from lessons.script import Beat, Look, fragment, lesson, play, show
-from subdivision import shapes, trace
+from subdivision import Role, shapes, trace
 from subdivision.schemes import QUAD_CENTROID, tensor_product
 
 LOOK = Look(azimuth=-65.0, elevation=60.0)
 
 
-@lesson("Figure 12  Bicubic surfaces", section="3 Quadrilateral meshes",
-        ours="The faint ring: the lecture draws one face, but all its nine points need the faces around it.")
+@lesson("Figure 12  Bicubic surfaces", section="3.1 Quads: centroid averaging",
+        ours="The faint ring: the lecture draws one face, but all its nine points need the faces around it.",
+        colours={Role.EDGE: "yellow", Role.FACE: "yellow", Role.CENTROID: "green", Role.MOVED: "blue"})
 def figure_12_bicubic() -> Iterator[Beat]:
     told = trace(QUAD_CENTROID, fragment(shapes.face_and_ring()))
     topology, centroids, geometry = told.stages
@@ -24,8 +25,8 @@ def figure_12_bicubic() -> Iterator[Beat]:
     yield play(told, topology, "(b) New topology: a point on every edge and one on the face. The shape stays.",
                look=LOOK, formula=r"$E = \dfrac{A+B}{2},\quad F = \dfrac{A+B+C+D}{4}$",
                claim=not topology.moves and len(topology.born) == 24 + 9)
-    yield play(told, centroids, "Mark the centroid of every small face: the green helpers, not vertices.", look=LOOK,
-               claim=len(centroids.born) == topology.topology.n_faces)
+    yield play(told, centroids, "Mark the centroid of every small face: the {centroid} helpers, not vertices.",
+               look=LOOK, claim=len(centroids.born) == topology.topology.n_faces)
     yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of the centroids around it.",
                look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$",
                notes="All centroids come from the mesh before it moves, and all vertices move together.",

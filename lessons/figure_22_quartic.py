@@ -3,14 +3,15 @@
 from collections.abc import Iterator
 
 from lessons.script import Beat, Look, fragment, lesson, play, show
-from subdivision import shapes, trace
+from subdivision import Role, shapes, trace
 from subdivision.schemes import TRIANGLE_CENTROID
 
 LOOK = Look(azimuth=-62.0, elevation=58.0)
 
 
-@lesson("Figure 22  Quartic surfaces", section="4 Triangular meshes",
-        ours="The faint ring: the lecture draws two faces, but all their nine points need the faces around them.")
+@lesson("Figure 22  Quartic surfaces", section="4.1 Triangles: centroid averaging",
+        ours="The faint ring: the lecture draws two faces, but all their nine points need the faces around them.",
+        colours={Role.EDGE: "yellow", Role.CENTROID: "green", Role.MOVED: "blue"})
 def figure_22_quartic() -> Iterator[Beat]:
     told = trace(TRIANGLE_CENTROID, fragment(shapes.two_triangles_and_ring()))
     topology, centroids, geometry = told.stages

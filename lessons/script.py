@@ -1,18 +1,20 @@
 """What a lesson is made of: beats, each a sentence over a stretch of a trace.
 
 A lesson file holds one function that yields its beats; ``@lesson`` makes the lesson of it.
-Beats are values: going back, jumping and exporting are indexing.
+Beats are values: going back, jumping and exporting are indexing.  What the function takes as
+parameters, such as a degree or a valence, the user may change while the lesson stands.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
-from typing import TypedDict, Unpack
+from typing import Any, TypeAlias, TypedDict, Unpack
 
 import numpy as np
 
-from subdivision import Boundary, Mesh, Stage, Stencil, Trace
+from subdivision import Boundary, Mesh, Role, Stage, Stencil, Trace
 
 
 class Kind(Enum):
@@ -22,21 +24,8 @@ class Kind(Enum):
     """As points, edges and faces in space."""
     DIAGRAM = "diagram"
     """As boxes of coefficients: a pyramid for a polygon, an array for a net."""
-
-
-@dataclass(frozen=True, eq=False)
-class View:
-    """One pane of a beat: ``trace`` runs from stage position ``start`` to ``stop`` while the beat plays."""
-
-    trace: Trace
-    start: float
-    stop: float
-    kind: Kind = Kind.SCENE
-    title: str = ""
-
-    def at(self, progress: float) -> float:
-        """The stage position at ``progress`` (0..1) through the beat."""
-        return self.start + progress * (self.stop - self.start)
+    STENCIL = "stencil"
+    """As the view's stencil drawn flat: black discs, the weights at them, a clear diamond for the point they make."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +41,48 @@ class Look:
 FLAT = Look(azimuth=-90.0, elevation=90.0, parallel=True)
 """Straight from above, x to the right and y up: for plane curves."""
 
+Reading: TypeAlias = Callable[..., str]
+"""Measures what a pane shows: its ``Mesh`` (and that of the view laid over it) to a few words with a number."""
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """One pane of a beat: ``trace`` runs from stage position ``start`` to ``stop`` while the beat plays.
+
+    Attributes
+    ----------
+    title : str
+        Stands above the pane, where there are several.
+    stencil : Stencil or None
+        A row to point out: its point, its contributors, their weights.  It belongs to the end of the beat.
+    span : int
+        How many stages back the stencil's parents live (1: the stage just played).
+    look : Look or None
+        Where this pane's camera stands; None: where the beat's stands.
+    marks : (vertex, words), ...
+        What is written at some vertices: "n = 6".
+    over : View or None
+        Laid over this one in dashes: its net only.
+    reading : Mesh -> str, or (Mesh, Mesh) -> str with a view laid over
+        A measurement of what the pane shows, live, written below it.
+    """
+
+    trace: Trace
+    start: float
+    stop: float
+    kind: Kind = Kind.SCENE
+    title: str = ""
+    stencil: Stencil | None = None
+    span: int = 1
+    look: Look | None = None
+    marks: tuple[tuple[int, str], ...] = ()
+    over: "View | None" = None
+    reading: Reading | None = None
+
+    def at(self, progress: float) -> float:
+        """The stage position at ``progress`` (0..1) through the beat."""
+        return self.start + progress * (self.stop - self.start)
+
 
 @dataclass(frozen=True, eq=False)
 class Beat:
@@ -60,31 +91,29 @@ class Beat:
     Attributes
     ----------
     text : str
-        The caption: short, present tense, readable from the back row.
+        The caption: short, present tense, readable from the back row.  Colours are named by what they mean:
+        ``{edge}`` is "orange", or "yellow" where colours are as in the lecture's caption.
     views : tuple of View
         What is shown, side by side; the first one leads the timeline.
     formula : str
         Mathematics between dollar signs, set beside the caption.
     notes : str
         What the lecturer may say; not on the picture.
-    stencil : Stencil or None
-        A row to point out: its point, its contributors, their weights.  It belongs to the end of the beat.
-    span : int
-        How many stages back the stencil's parents live (1: the stage just played).
     look : Look
         Where the camera stands.
     claim : bool
         What the text asserts about the numbers; the tests require it.
+    poster : bool
+        Whether its end is the picture that stands for the lesson; else that is the end of the last beat.
     """
 
     text: str
     views: tuple[View, ...]
     formula: str = ""
     notes: str = ""
-    stencil: Stencil | None = None
-    span: int = 1
     look: Look = Look()
     claim: bool = True
+    poster: bool = False
 
     @property
     def lead(self) -> View:
@@ -107,7 +136,26 @@ class Beat:
         return 1.0 if self.is_still else (at - self.start) / (self.stop - self.start)
 
 
-Script = Callable[[], Iterator[Beat]]
+Script = Callable[..., Iterator[Beat]]
+
+Meaning: TypeAlias = Role | str
+"""What a colour means: a role, or "extraordinary" for extraordinary vertices among the originals."""
+
+EXTRAORDINARY = "extraordinary"
+
+
+@dataclass(frozen=True)
+class Knob:
+    """A whole number of a lesson that the user may change while it stands; ``name`` is a parameter of its script."""
+
+    name: str
+    least: int
+    most: int
+    start: int
+
+    @property
+    def label(self) -> str:
+        return self.name.replace("_", " ")
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +171,10 @@ class Lesson:
         The heading it stands under; headings sort by their number.
     ours : str
         What the lecture does not say and we inferred; empty where all is the lecture's own.
+    colours : Meaning -> str
+        The colours the lecture's caption names, where they differ from the house's: ``{Role.EDGE: "yellow"}``.
+    knobs : tuple of Knob
+        What the user may change; ``values`` are what they stand at.
     """
 
     id: str
@@ -130,26 +182,64 @@ class Lesson:
     section: str
     script: Script
     ours: str = ""
+    colours: Mapping[Meaning, str] = field(default_factory=dict)
+    knobs: tuple[Knob, ...] = ()
+    values: tuple[int, ...] = ()
+    _turned: dict[tuple[int, ...], "Lesson"] = field(default_factory=dict, repr=False)
 
     @cached_property
     def beats(self) -> tuple[Beat, ...]:
-        return tuple(self.script())
+        return tuple(self.script(**self.settings))
+
+    @property
+    def settings(self) -> dict[str, int]:
+        """What the knobs stand at, by name."""
+        return {knob.name: value for knob, value in zip(self.knobs, self.values, strict=True)}
+
+    def turned(self, **settings: int) -> "Lesson":
+        """The lesson with some knobs at other values, held within their limits; the same object for the same values."""
+        wanted = {**self.settings, **settings}
+        values = tuple(min(max(wanted[k.name], k.least), k.most) for k in self.knobs)
+        self._turned.setdefault(self.values, self)
+        return self._turned.setdefault(values, replace(self, values=values))
 
 
-def lesson(title: str, *, section: str, ours: str = "") -> Callable[[Script], Lesson]:
-    """Make a lesson of the function that tells it."""
-    return lambda script: Lesson(script.__name__, title, section, script, ours)
+def lesson(
+    title: str,
+    *,
+    section: str,
+    ours: str = "",
+    colours: Mapping[Meaning, str] | None = None,
+    knobs: Mapping[str, range] | None = None,
+) -> Callable[[Script], Lesson]:
+    """Make a lesson of the function that tells it.
+
+    ``knobs`` names parameters of the function and the values they may take; they begin at their defaults.
+    """
+
+    def made(script: Script) -> Lesson:
+        defaults = {name: p.default for name, p in inspect.signature(script).parameters.items()}
+        turning = tuple(Knob(name, r[0], r[-1], defaults[name]) for name, r in (knobs or {}).items())
+        start = tuple(knob.start for knob in turning)
+        return Lesson(script.__name__, title, section, script, ours, colours or {}, turning, start)
+
+    return made
 
 
 class Said(TypedDict, total=False):
-    """What ``show`` and ``play`` may add to their sentence: the fields of a ``Beat``."""
+    """What ``show`` and ``play`` may add to their sentence: fields of a ``Beat``, and of its ``View``."""
 
     formula: str
     notes: str
-    stencil: Stencil | None
-    span: int
     look: Look
     claim: bool
+    poster: bool
+    title: str
+    stencil: Stencil | None
+    span: int
+    marks: tuple[tuple[int, str], ...]
+    over: View | None
+    reading: Reading | None
 
 
 def show(trace: Trace, after: Stage | None, text: str, **said: Unpack[Said]) -> Beat:
@@ -173,6 +263,25 @@ def diagram_of(beat: Beat, title: str = "") -> View:
     return replace(beat.lead, kind=Kind.DIAGRAM, title=title)
 
 
+def stencil_of(trace: Trace, point: int, title: str = "") -> View:
+    """The row of one point across the whole trace, drawn flat over the control points seen from above."""
+    end = len(trace.stages)
+    return View(trace, end, end, Kind.STENCIL, title, stencil=trace.whole.stencil(point), span=end)
+
+
+def side_by_side(text: str, *views: View, **said: Unpack[Said]) -> Beat:
+    """Several views as panes; the first one leads the timeline."""
+    said.setdefault("look", look_at(views[0].trace))
+    return Beat(text, views, **_split(said)[0])
+
+
+def levels(trace: Trace, *which: int) -> tuple[View, ...]:
+    """The control object and some levels of it as panes, each with its name above it."""
+    places = [trace.begins(level) for level in which]
+    names = [f"level {level}" if level else "control points" for level in which]
+    return tuple(View(trace, at, at, title=name) for at, name in zip(places, names, strict=True))
+
+
 def fragment(mesh: Mesh) -> Mesh:
     """A piece of a larger mesh: the faces that touch its boundary are there for the others, and drawn faint."""
     return Mesh(mesh.surface.with_boundary(Boundary.HIDE), mesh.points)
@@ -185,4 +294,14 @@ def look_at(trace: Trace) -> Look:
 
 def _beat(trace: Trace, stretch: tuple[float, float], text: str, said: Said) -> Beat:
     said.setdefault("look", look_at(trace))
-    return Beat(text, (View(trace, *stretch),), **said)
+    of_beat, of_view = _split(said)
+    return Beat(text, (View(trace, *stretch, **of_view),), **of_beat)
+
+
+def _split(said: Said) -> tuple[dict[str, Any], dict[str, Any]]:
+    """What is said of the beat, and what of its view."""
+    of_view = {name: value for name, value in said.items() if name in OF_VIEW}
+    return {name: value for name, value in said.items() if name not in OF_VIEW}, of_view
+
+
+OF_VIEW = ("title", "stencil", "span", "marks", "over", "reading")

@@ -9,14 +9,14 @@ import pytest
 import lessons
 from app.draw.compose import compose
 from app.draw.picture import Diagram, Scene
-from app.draw.theme import THEMES
+from app.draw.theme import NAMES, THEMES
 from app.state import at_stop, choose, drag, seek, segments, start, stops
-from lessons.script import Lesson
+from lessons.script import EXTRAORDINARY, Lesson
 from subdivision import Role
 
 LESSONS = lessons.all_lessons()
 COLOURS = re.compile(r"\b(red|orange|yellow|green|blue|purple|black|white|vermilion)\b")
-ROLE_OF_COLOUR = {"green": "centroid", "orange": "edge point", "vermilion": "face point", "blue": "moved"}
+MEANINGS = {role.name.lower(): name for role, name in NAMES.items()} | {EXTRAORDINARY: "original"}
 
 each_lesson = pytest.mark.parametrize("lesson", LESSONS, ids=lambda each: each.id)
 
@@ -37,8 +37,9 @@ def test_captions_are_short_and_say_only_colours_that_are_there(lesson: Lesson):
         assert beat.text[-1] in ".?"
         assert beat.formula.count("$") in (0, 2)
         shown = {entry.text for entry in compose(_ends(lesson, beat)).legend}
-        for colour in COLOURS.findall(beat.text):
-            assert ROLE_OF_COLOUR[colour] in shown, beat.text
+        assert COLOURS.findall(beat.text) == [], "a colour is named by what it means: {centroid}"
+        for meaning in re.findall(r"{(.*?)}", beat.text):
+            assert MEANINGS[meaning] in shown, beat.text
 
 
 @each_lesson
@@ -56,9 +57,10 @@ def test_every_beat_composes_at_every_stop_and_between_in_every_theme(lesson: Le
 @each_lesson
 def test_a_pointed_out_stencil_shows_one_weight_for_each_contributor(lesson: Lesson):
     for beat in lesson.beats:
-        if beat.stencil is not None:
-            scenes = compose(_ends(lesson, beat)).scenes
-            assert len(scenes[0].labels) == len(beat.stencil.terms)
+        panes = compose(_ends(lesson, beat)).panes
+        for view, pane in zip(beat.views, panes, strict=True):
+            if view.stencil is not None and isinstance(pane.content, Scene):
+                assert len(pane.content.labels) == len(view.stencil.terms) + len(view.marks)
 
 
 @each_lesson

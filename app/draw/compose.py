@@ -4,21 +4,22 @@ Nothing is painted: the result is a display list, so that a test can read "four 
 3/8 3/8 1/8 1/8" without a screen, and every painter paints the same.
 """
 
-from app.draw import diagrams, motion
+from app.draw import diagrams, motion, stencils
 from app.draw.framing import camera
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
-from app.draw.scenes import CONTRIBUTOR, scene
-from app.draw.theme import NAMES, THEMES, Theme
+from app.draw.pointed import Pointed
+from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
+from app.draw.theme import NAMES, Theme, theme_of
 from app.state import State, level_of
 from lessons.script import Beat, Kind, View
-from subdivision import Polyline, Role, Stencil, Step
+from subdivision import Mesh, Polyline, Role, Step
 
 
 def compose(state: State) -> Picture:
     """The picture of a state."""
-    theme, beat = THEMES[state.options.theme], state.now
+    theme, beat = dressed(state), state.now
     panes = tuple(
-        Pane(_content(state, view, theme), rect, view.title)
+        Pane(_content(state, view, theme), rect, view.title, _measured(state, view))
         for view, rect in zip(beat.views, _rects(beat), strict=True)
     )
     return Picture(
@@ -28,43 +29,71 @@ def compose(state: State) -> Picture:
         muted=theme.muted,
         legend=legend(panes, theme) if state.options.legend else (),
         title=state.lesson.title,
-        caption=beat.text,
+        caption=said(state, beat),
         formula=beat.formula,
-        corner=_counts(state),
+        corner=_corner(state),
         stroke=theme.stroke,
         scale=theme.type,
     )
+
+
+def dressed(state: State) -> Theme:
+    """The theme the picture wears."""
+    return theme_of(state.lesson, state.options.theme, state.options.as_caption)
+
+
+def said(state: State, beat: Beat) -> str:
+    """The caption of a beat of the lesson, in which colours are called what they are."""
+    return beat.text.format_map(dressed(state).words)
 
 
 def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
     """One entry for each kind of point that is in the picture: the roles in order, then what is pointed out."""
     there = {m.name: m.shape for p in panes if isinstance(p.content, Scene) for m in p.content.markers if len(m.points)}
     points = [Entry(there[NAMES[r]], theme.roles[r], NAMES[r]) for r in Role if NAMES[r] in there]
+    if theme.extraordinary is not None and EXTRAORDINARY_NAME in there:
+        points.insert(1, Entry(Shape.SPHERE, theme.extraordinary, EXTRAORDINARY_NAME))
     if CONTRIBUTOR in there:
         points.append(Entry(Shape.SPHERE, theme.selection, CONTRIBUTOR))
-    return tuple(points)
+    return (*points, *stencils.legend(panes, theme))
 
 
-def stencil_of(state: State, view: View) -> tuple[Stencil | None, int]:
-    """The row to point out: of the point in focus, else the lesson's own at the end of its beat; and its span."""
-    trace, at = state.trace(view), view.at(state.progress)
-    k = int(at)
-    if state.focus is not None and at == k and k > 0 and state.focus < trace.stages[k - 1].n_points:
-        begin = trace.begins(trace.levels[k - 1])
-        return Step(trace.stages[begin:k]).stencil(state.focus), k - begin
-    if state.now.stencil is not None and state.progress == 1:
-        return state.now.stencil, state.now.span
-    return None, 1
+def pointed(state: State, view: View) -> Pointed | None:
+    """The row to point out in a view: of the point in focus, else the lesson's own at the end of its beat."""
+    trace, at, spot = state.trace(view), view.at(state.progress), state.focus
+    if spot is not None and state.now.views[spot.pane].trace is view.trace and at == int(at):
+        k = spot.stage
+        if 0 < k <= at and spot.point < trace.stages[k - 1].n_points:
+            begin = trace.begins(trace.levels[k - 1])
+            return Pointed(Step(trace.stages[begin:k]).stencil(spot.point), k, k - begin)
+    if view.stencil is not None and state.progress == 1:
+        return Pointed(view.stencil, int(view.stop), view.span)
+    return None
+
+
+def shown_mesh(state: State, view: View) -> Mesh:
+    """What a view shows now, helpers left out, also between two stages."""
+    frame = state.trace(view).frame(motion.eased(view.at(state.progress)))
+    return Mesh(frame.topology, frame.points[: frame.topology.n_vertices])
 
 
 def _content(state: State, view: View, theme: Theme) -> Scene | Diagram:
-    trace, at = state.trace(view), view.at(state.progress)
+    trace, at, row = state.trace(view), view.at(state.progress), pointed(state, view)
     if view.kind is Kind.DIAGRAM:
-        return diagrams.diagram(trace, at, theme)
-    stencil, span = stencil_of(state, view)
-    frame = trace.frame(motion.eased(at))
-    seen = camera(view.trace, state.now.look)  # of the trace as the lesson has it: dragging a point moves no camera
-    return scene(frame, trace, seen, state.options, theme, stencil, span)
+        return diagrams.diagram(trace, at, theme, state.focus)
+    if view.kind is Kind.STENCIL and view.stencil is not None:
+        return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme)
+    # of the trace as the lesson has it: dragging a point moves no camera
+    seen = camera(view.trace, view.look or state.now.look)
+    over = shown_mesh(state, view.over) if view.over is not None else None
+    return scene(trace.frame(motion.eased(at)), trace, seen, state.options, theme, row, view.marks, over)
+
+
+def _measured(state: State, view: View) -> str:
+    if view.reading is None:
+        return ""
+    shown = [view] if view.over is None else [view, view.over]
+    return view.reading(*(shown_mesh(state, each) for each in shown))
 
 
 def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:
@@ -77,8 +106,13 @@ def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:
     return tuple(((k % columns) / columns, (k // columns) / rows, 1 / columns, 1 / rows) for k in range(n))
 
 
-def _counts(state: State) -> str:
-    view = state.now.lead
-    t = state.trace(view).topology_at(int(view.at(state.progress)))
+def _corner(state: State) -> str:
+    """Knobs, level and counts; the counts only where all panes show the same control object at the same place."""
+    turned = [f"{knob.label} {value}" for knob, value in zip(state.lesson.knobs, state.lesson.values, strict=True)]
+    lead = state.now.lead
+    is_one = all(v.trace is lead.trace and (v.start, v.stop) == (lead.start, lead.stop) for v in state.now.views)
+    if lead.kind is Kind.STENCIL or not is_one:
+        return "   ".join(turned)
+    t = state.trace(lead).topology_at(int(lead.at(state.progress)))
     parts = [f"V {t.n_vertices}", f"E {t.n_edges}"] + ([f"F {t.n_faces}", f"χ {t.euler}"] if t.n_faces else [])
-    return f"level {level_of(state)}   " + "  ".join(parts)
+    return "   ".join([*turned, f"level {level_of(state)}", "  ".join(parts)])

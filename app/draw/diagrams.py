@@ -14,6 +14,7 @@ import numpy as np
 from app.draw.motion import eased
 from app.draw.picture import Box, Colour, Diagram, Link, Note
 from app.draw.theme import Theme
+from app.state import Spot
 from subdivision import Connectivity, Grid, Polyline, Role, Stage, Step, Trace
 from subdivision.arrays import Floats
 from subdivision.exact import spelled
@@ -33,8 +34,8 @@ TINT = 0.24
 """How much of a role's colour fills its box."""
 
 
-def diagram(trace: Trace, at: float, theme: Theme) -> Diagram:
-    """The step under way at stage position ``at``, as boxes."""
+def diagram(trace: Trace, at: float, theme: Theme, focus: Spot | None = None) -> Diagram:
+    """The step under way at stage position ``at``, as boxes; those that a box in ``focus`` is made of are lit."""
     k = min(int(at), len(trace.stages) - 1)
     level = trace.levels[k if at > k else max(k - (at == k and k > 0), 0)]
     begin = trace.begins(level)
@@ -184,7 +185,7 @@ def _box(
 ) -> Box:
     colour = theme.roles[role] if role is not Role.ORIGINAL else theme.muted
     tint = tinted(colour, theme)
-    return Box(x, y, text, tint, theme.ink, colour, 0.94, height, opacity=float(opacity), point=point)
+    return Box(x, y, (text,), tint, theme.ink, colour, 0.94, height, opacity=float(opacity), point=point)
 
 
 def _point(i: int) -> str:

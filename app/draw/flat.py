@@ -25,9 +25,10 @@ class Ring:
 
 @dataclass(frozen=True)
 class Polygon:
-    """Filled; y downwards."""
+    """Filled, or with a ``width`` only its outline; y downwards."""
 
     corners: tuple[tuple[float, float], ...]
+    width: float = 0.0
 
 
 Part: TypeAlias = Disc | Ring | Polygon
@@ -38,6 +39,7 @@ FLAT: Mapping[Shape, tuple[Part, ...]] = MappingProxyType(
         Shape.DIAMOND: (Polygon(((1.28, 0.0), (0.0, 1.28), (-1.28, 0.0), (0.0, -1.28))),),
         Shape.CUBE: (Polygon(((0.9, 0.9), (-0.9, 0.9), (-0.9, -0.9), (0.9, -0.9))),),
         Shape.BEAD: (Disc(0.7), Ring(1.3, 0.25)),
+        Shape.CLEAR: (Polygon(((1.6, 0.0), (0.0, 1.6), (-1.6, 0.0), (0.0, -1.6)), 0.26),),
         Shape.HALO: (Disc(0.85), Ring(1.45, 0.3)),
     }
 )

@@ -11,18 +11,31 @@ import numpy as np
 
 from app.draw.framing import FLAT_FRAME, FRAME
 from app.draw.labels import placed
-from app.draw.picture import Box, Camera, Diagram, Note, Pane, Picture
+from app.draw.picture import Box, Camera, Diagram, Dot, Note, Pane, Picture
 from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, wrapped
 
-__all__ = ["Area", "Mark", "Plate", "Primitive", "Stroke", "Text", "extent", "fitted", "overlay", "pane_areas"]
+__all__ = [
+    "Area",
+    "Mark",
+    "Plate",
+    "Primitive",
+    "Stroke",
+    "Text",
+    "extent",
+    "fitted",
+    "overlay",
+    "pane_areas",
+    "part_at",
+]
 
 
 # Sizes in logical points: thousandths of the picture's height.
 MARGIN, GAP = 26.0, 14.0
-TITLE, PANE_TITLE, CORNER, LEGEND, CAPTION, FORMULA, NOTE = 36.0, 27.0, 25.0, 25.0, 36.0, 36.0, 25.0
-TIGHT = 0.6
-"""... but in a box too small for it, where smaller type is better than type across the border."""
+TITLE, PANE_TITLE, READING, CORNER, LEGEND = 36.0, 27.0, 27.0, 25.0, 25.0
+CAPTION, FORMULA, NOTE = 36.0, 36.0, 25.0
+BOX = 34.0
+"""The largest type in a box."""
 
 APART = 1.4
 """Between the caption and the formula beside it, relative to the caption's size."""
@@ -62,18 +75,19 @@ def overlay(
             seen = camera or fitted(pane.content.camera, area)
             found.extend(placed(pane.content, seen, area, height, picture))
         found.extend(_pane_title(pane, area, picture, height))
+        found.extend(_reading(pane, area, picture, height))
     return (*found, *_words(picture, width, height, words).placed)
 
 
 def pane_areas(picture: Picture, width: float, height: float, words: bool = True) -> list[Area]:
     """Where the panes are, in whole pixels: what title, legend and caption leave free."""
     around = _words(picture, width, height, words)
-    above = _title_room(picture, height)
+    above, below = _title_room(picture, height), _reading_room(picture, height)
     tall = around.bottom - around.top
     areas = []
     for x, y, w, h in (p.rect for p in picture.panes):
         left, right = round(x * width), round((x + w) * width)
-        top, bottom = round(around.top + y * tall + above), round(around.top + (y + h) * tall)
+        top, bottom = round(around.top + y * tall + above), round(around.top + (y + h) * tall - below)
         areas.append((float(left), float(top), float(max(right - left, 1)), float(max(bottom - top, 1))))
     return areas
 
@@ -208,55 +222,130 @@ def _pane_title(pane: Pane, area: Area, picture: Picture, height: float) -> list
     return [Text(area[0] + area[2] / 2, area[1] - 0.35 * size, pane.title, size, picture.muted, "center", bold=True)]
 
 
+def _reading_room(picture: Picture, height: float) -> float:
+    return READING * LINE * height / 1000 * picture.scale if any(p.reading for p in picture.panes) else 0.0
+
+
+def _reading(pane: Pane, area: Area, picture: Picture, height: float) -> list[Primitive]:
+    """What was measured, in the middle below its pane."""
+    if not pane.reading:
+        return []
+    size = READING * height / 1000 * picture.scale
+    wide = measure(pane.reading, size, True)[0]
+    size = max(min(size, size * 0.94 * area[2] / wide), LEAST * height / 1000)
+    x, y = area[0] + area[2] / 2, area[1] + area[3] + 0.95 * size
+    return [Text(x, y, pane.reading, size, picture.ink, "center", bold=True)]
+
+
 # -- diagrams ---------------------------------------------------------------------------------
 
 
-def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> list[Primitive]:
-    """Boxes, links and notes: cells scaled evenly, in the middle of the pane."""
-    unit = height / 1000
+@dataclass(frozen=True)
+class _Cells:
+    """Where the cells of a diagram stand in its pane: scaled evenly, in the middle."""
+
+    x0: float
+    y0: float
+    cell: float
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        return self.x0 + self.cell * x, self.y0 + self.cell * y
+
+
+def _cells(diagram: Diagram, area: Area, unit: float) -> _Cells:
     left, top, right, bottom = diagram.cells
     margin = MARGIN * unit
     room = (area[2] - 2 * margin) / max(right - left, 1e-9), (area[3] - margin) / max(bottom - top, 1e-9)
-    cell = min(*room, 150 * unit)
-    x0 = area[0] + area[2] / 2 - cell * (left + right) / 2
-    y0 = area[1] + area[3] / 2 - cell * (top + bottom) / 2
+    cell = min(*room, diagram.largest * unit)
+    return _Cells(
+        area[0] + area[2] / 2 - cell * (left + right) / 2, area[1] + area[3] / 2 - cell * (top + bottom) / 2, cell
+    )
+
+
+def part_at(
+    picture: Picture, width: float, height: float, x: float, y: float, words: bool = True
+) -> tuple[int, Box | Dot] | None:
+    """The box or dot of a diagram under a place of the picture, the topmost, and the number of its pane."""
+    unit = height / 1000
+    for k, (pane, area) in enumerate(zip(picture.panes, pane_areas(picture, width, height, words), strict=True)):
+        if not isinstance(pane.content, Diagram):
+            continue
+        cells = _cells(pane.content, area, unit)
+        parts: list[Box | Dot] = [*reversed(pane.content.dots), *reversed(pane.content.boxes)]
+        for part in parts:
+            across, down = (abs(a - b) for a, b in zip(cells.at(part.x, part.y), (x, y), strict=True))
+            if isinstance(part, Dot):
+                reach = 2 * part.size * unit, 2 * part.size * unit
+            else:
+                reach = part.width * cells.cell / 2, part.height * cells.cell / 2
+            if across <= reach[0] and down <= reach[1]:
+                return k, part
+    return None
+
+
+def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> list[Primitive]:
+    """Links, boxes, dots and notes, the later ones over the earlier."""
+    unit = height / 1000
+    cells, margin = _cells(diagram, area, unit), MARGIN * unit
     links: list[Primitive] = [
         Stroke(
-            x0 + cell * k.x0, y0 + cell * k.y0, x0 + cell * k.x1, y0 + cell * k.y1,
-            k.colour, k.width * unit * picture.stroke, k.opacity,
+            *cells.at(k.x0, k.y0), *cells.at(k.x1, k.y1), k.colour, k.width * unit * picture.stroke, k.opacity
         )
         for k in diagram.links
     ]  # fmt: skip
-    sizes = _box_types(diagram, cell, unit * picture.scale)
-    line = 2 * unit * picture.stroke
+    said = _spelled(diagram, cells.cell, unit * picture.scale)
     boxes = [
         primitive
-        for b, size in zip(diagram.boxes, sizes, strict=True)
-        for primitive in _box(b, x0 + cell * b.x, y0 + cell * b.y, cell, size, line)
+        for b, (text, size) in zip(diagram.boxes, said, strict=True)
+        for primitive in _box(b, *cells.at(b.x, b.y), cells.cell, text, size, b.line * unit * picture.stroke)
     ]
-    note_size = max(min(NOTE * unit * picture.scale, 0.5 * cell), LEAST * unit)
-    notes = [t for n in diagram.notes for t in _note(n, x0 + cell * n.x, y0 + cell * n.y, note_size, area, margin)]
-    return [*links, *boxes, *notes]
+    dots = [Mark(*cells.at(d.x, d.y), d.shape, d.size * unit * picture.stroke**0.5, d.colour) for d in diagram.dots]
+    usual = max(min(NOTE * unit * picture.scale, 0.5 * cells.cell), LEAST * unit)
+    notes = [
+        text
+        for n in diagram.notes
+        for text in _note(
+            n, cells.at(n.x, n.y), max(n.size * picture.scale, LEAST) * unit if n.size else usual, unit, area, margin
+        )
+    ]
+    return [*links, *boxes, *dots, *notes]
 
 
-def _box_types(diagram: Diagram, cell: float, unit: float) -> list[float]:
-    """A size for each box at which it holds its words; short sums are not much larger than the longest one."""
-    room = [min(34 * unit, _room(b, cell)) for b in diagram.boxes]
-    return [max(min(each, 1.4 * min(room)), TIGHT * LEAST * unit) for each in room]
+def _spelled(diagram: Diagram, cell: float, unit: float) -> list[tuple[str, float]]:
+    """For each box the words it has room for, and their size; short words are not much larger than the longest."""
+    found: list[tuple[str, float]] = []
+    choice = {group: _fullest(diagram, group, cell, unit) for group in {b.group for b in diagram.boxes}}
+    for b in diagram.boxes:
+        k, size = choice[b.group]
+        text = b.texts[min(k, len(b.texts) - 1)] if size else ""
+        found.append((text, min(1.4 * size, BOX * unit, _room(b, text, cell)) if size else 0.0))
+    return found
 
 
-def _room(box: Box, cell: float) -> float:
+def _fullest(diagram: Diagram, group: int, cell: float, unit: float) -> tuple[int, float]:
+    """Which of its texts all boxes of a group have room for, and the least of the sizes at which they hold it."""
+    boxes = [b for b in diagram.boxes if b.group == group]
+    for k in range(max(len(b.texts) for b in boxes)):
+        size = min(_room(b, b.texts[min(k, len(b.texts) - 1)], cell) for b in boxes)
+        if size >= LEAST * unit:
+            return k, size
+    return 0, 0.0
+
+
+def _room(box: Box, text: str, cell: float) -> float:
     """The largest size at which a box holds its words."""
-    lines = box.text.splitlines()
+    lines = text.splitlines()
+    if not lines:
+        return float("inf")
     tall = max([LINE * len(lines), *(sum(measure(line, 1.0)[1:]) for line in lines)])
     wide = max((measure(line, 1.0)[0] for line in lines), default=0.0)
     return min(0.94 * box.height * cell / tall, 0.9 * box.width * cell / max(wide, 1e-9))
 
 
-def _box(box: Box, x: float, y: float, cell: float, size: float, line: float) -> list[Primitive]:
+def _box(box: Box, x: float, y: float, cell: float, said: str, size: float, line: float) -> list[Primitive]:
     w, h = box.width * cell, box.height * cell
     plate = Plate(x - w / 2, y - h / 2, w, h, box.fill, box.stroke, line, 0.14 * min(w, h), box.opacity)
-    lines = box.text.splitlines()
+    lines = said.splitlines()
     top = y + 0.36 * size - (len(lines) - 1) * LINE * size / 2
     words = [
         Text(x, top + k * LINE * size, text, size, box.ink, "center", opacity=box.opacity)
@@ -265,8 +354,9 @@ def _box(box: Box, x: float, y: float, cell: float, size: float, line: float) ->
     return [plate, *words]
 
 
-def _note(note: Note, x: float, y: float, size: float, area: Area, margin: float) -> list[Primitive]:
+def _note(note: Note, at: tuple[float, float], size: float, unit: float, area: Area, margin: float) -> list[Primitive]:
     """Words that stay inside their pane: on two lines or more where there is not room for one."""
+    x, y = at[0] + note.away[0] * unit, at[1] - note.away[1] * unit
     left, right = area[0] + 0.3 * margin, area[0] + area[2] - 0.3 * margin
     room = {"left": right - x, "right": x - left, "center": 2 * min(x - left, right - x)}[note.align]
     lines = wrapped(note.text, size, max(room, size))

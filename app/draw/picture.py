@@ -26,6 +26,8 @@ class Shape(Enum):
     """A small sphere with a ring: a helper, never a vertex."""
     HALO = "halo"
     """A sphere with a halo round it: a point that has moved."""
+    CLEAR = "clear"
+    """An unfilled diamond: the point a stencil makes.  Flat pictures only."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,11 +124,16 @@ class Scene:
 
 @dataclass(frozen=True)
 class Box:
-    """A box of a diagram round ``(x, y)``, y downwards, in cells; ``text`` may hold mathematics between dollars."""
+    """A box of a diagram round ``(x, y)``, y downwards, in cells.
+
+    ``texts`` says the same ever more tersely, with mathematics between dollars: the first that has room is shown,
+    the same one in all boxes of a ``group``; where none has, the box stays empty.
+    ``point`` and ``stage`` tell which point of the trace it is, after how many stages.
+    """
 
     x: float
     y: float
-    text: str
+    texts: tuple[str, ...]
     fill: Colour
     ink: Colour
     stroke: Colour
@@ -134,6 +141,9 @@ class Box:
     height: float = 0.7
     opacity: float = 1.0
     point: int = -1
+    stage: int = -1
+    group: int = 0
+    line: float = 2.0
 
 
 @dataclass(frozen=True)
@@ -151,7 +161,10 @@ class Link:
 
 @dataclass(frozen=True)
 class Note:
-    """Words in a diagram, in cells; ``align`` is left, center or right."""
+    """Words in a diagram, in cells; ``align`` is left, center or right.
+
+    ``size`` in logical points (0: as notes are); ``away`` moves them, right and up, in logical points.
+    """
 
     x: float
     y: float
@@ -159,25 +172,47 @@ class Note:
     colour: Colour
     align: str = "left"
     opacity: float = 1.0
+    size: float = 0.0
+    away: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Dot:
+    """A flat marker of a diagram, in cells; ``size`` is its radius in logical points."""
+
+    x: float
+    y: float
+    shape: Shape
+    size: float
+    colour: Colour
+    point: int = -1
+    stage: int = -1
 
 
 @dataclass(frozen=True)
 class Diagram:
-    """One pane of boxes; ``cells`` is (left, top, right, bottom) of what must be visible."""
+    """One flat pane: boxes, dots, strokes, words; ``cells`` is (left, top, right, bottom) of what must be visible."""
 
     cells: tuple[float, float, float, float]
     boxes: tuple[Box, ...] = ()
     links: tuple[Link, ...] = ()
     notes: tuple[Note, ...] = ()
+    dots: tuple[Dot, ...] = ()
+    largest: float = 150.0
+    """No cell is drawn larger than this, in logical points."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pane:
-    """A part of the picture, in fractions of it from the upper left: x, y, width, height."""
+    """A part of the picture, in fractions of it from the upper left: x, y, width, height.
+
+    ``title`` stands above it, ``reading`` (a measurement) below.
+    """
 
     content: Scene | Diagram
     rect: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
     title: str = ""
+    reading: str = ""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D
 from numpy.typing import NDArray
 
-from app.draw.flat import FLAT, Part, Polygon, Ring
+from app.draw.flat import FLAT, Disc, Part, Polygon
 from app.draw.layout import fitted, overlay, pane_areas
 from app.draw.picture import Colour, Picture, Scene
 from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
@@ -150,9 +150,9 @@ class _Brush:
 
     def _mark(self, mark: Mark) -> None:
         for part in FLAT[mark.shape]:
-            fill, stroke = (None, mark.colour) if isinstance(part, Ring) else (mark.colour, None)
-            line = part.width * mark.size if isinstance(part, Ring) else 0.0
-            self._draw(_placed(part, mark), fill, stroke, line, mark.opacity)
+            width = 0.0 if isinstance(part, Disc) else part.width
+            fill, stroke = (None, mark.colour) if width else (mark.colour, None)
+            self._draw(_placed(part, mark), fill, stroke, width * mark.size, mark.opacity)
 
     def _draw(
         self, shape: Outline, fill: Colour | None, stroke: Colour | None, width: float, opacity: float,

@@ -5,9 +5,10 @@ import numpy as np
 from app.draw import motion
 from app.draw.cues import cues
 from app.draw.picture import Camera, Faces, Label, Lines, Markers, Scene, Shape
+from app.draw.pointed import Pointed
 from app.draw.theme import NAMES, SHAPES, SIZES, Theme
 from app.state import Options
-from subdivision import Connectivity, Frame, Role, Stencil, Topology, Trace
+from subdivision import Connectivity, Frame, Mesh, Role, Topology, Trace
 from subdivision.arrays import Mask
 from subdivision.exact import spelled_together
 from subdivision.rows import shown_corners, shown_faces
@@ -36,22 +37,32 @@ FEW = 60
 CONTRIBUTOR, POINTED_OUT = "contributor", "pointed out"
 """Names of the markers of a stencil."""
 
+EXTRAORDINARY_NAME = "extraordinary vertex"
+
 
 def scene(
-    frame: Frame, trace: Trace, seen: Camera, options: Options, theme: Theme, stencil: Stencil | None, span: int
+    frame: Frame,
+    trace: Trace,
+    seen: Camera,
+    options: Options,
+    theme: Theme,
+    row: Pointed | None = None,
+    marks: tuple[tuple[int, str], ...] = (),
+    over: Mesh | None = None,
 ) -> Scene:
-    """One instant of a trace in space, ``seen`` by a camera."""
+    """One instant of a trace in space, ``seen`` by a camera; ``over`` is laid over it in dashes."""
     radius = _marker_radius(trace, frame)
     faint = _faint(frame.topology, len(frame.points))
     faint_before = _faint(frame.before.topology, len(frame.old_points))
     faces = _faces(frame, theme) if options.surface else ()
-    lines = (*_net(frame, theme, options), *_ghost(frame, theme, options), *_belonging(frame, theme, options))
+    lines = (*_net(frame, theme, options), *_belonging(frame, theme, options))
+    lines = (*lines, *(_ghost(frame, theme, options) if over is None else _laid_over(over, theme)))
     if options.ghost:
         lines = (*lines, *cues(frame, theme, faint, faint_before))
     markers = (*_leaving(frame, theme, options, radius, faint_before), *_markers(frame, theme, options, radius, faint))
-    labels: tuple[Label, ...] = _numbers(frame, theme, options)
-    if stencil is not None and options.weights:
-        picked, rays, words = _pointed_out(frame, trace, stencil, span, theme, radius)
+    labels = (*_marks(frame, marks, theme), *_numbers(frame, theme, options))
+    if row is not None and options.weights:
+        picked, rays, words = _pointed_out(trace, row, theme, radius)
         markers, lines, labels = (*markers, *picked), (*lines, *rays), (*labels, *words)
     return Scene(seen, faces, lines, markers, labels)
 
@@ -182,11 +193,18 @@ def _markers(frame: Frame, theme: Theme, options: Options, radius: float, faint:
     if len(size) > many and frame.progress == 1 and moves:
         size = np.where(_extraordinary(frame), 1.6 * size, 0.0)
     found = []
+    special = _extraordinary(frame) & (roles == Role.ORIGINAL) & (theme.extraordinary is not None)
     for role in Role:
-        ids = np.flatnonzero((roles == role) & ~faint & (size > 0))
+        ids = np.flatnonzero((roles == role) & ~faint & ~special & (size > 0))
         if len(ids) and (options.helpers or role is not Role.CENTROID):
             shape, colour = _marker(role, cornered)[0], theme.roles[role]
             found.append(Markers(frame.points[ids], shape, colour, size[ids], np.ones(len(ids)), ids, NAMES[role]))
+    ids = np.flatnonzero(special & ~faint & (size > 0))
+    if len(ids) and theme.extraordinary is not None:
+        all_there = np.ones(len(ids))
+        found.append(
+            Markers(frame.points[ids], Shape.SPHERE, theme.extraordinary, size[ids], all_there, ids, EXTRAORDINARY_NAME)
+        )
     ids = np.flatnonzero(faint & (roles == Role.ORIGINAL) & (size > 0))
     if len(ids):
         small = 0.6 * size[ids]
@@ -225,13 +243,23 @@ def _copies(frame: Frame, theme: Theme) -> tuple[Label, ...]:
     )
 
 
+def _marks(frame: Frame, marks: tuple[tuple[int, str], ...], theme: Theme) -> tuple[Label, ...]:
+    """What the lesson writes at vertices."""
+    return tuple(Label(frame.points[v], text, theme.ink, 28.0) for v, text in marks)
+
+
+def _laid_over(mesh: Mesh, theme: Theme) -> tuple[Lines, ...]:
+    """Another control object's net, in dashes that show what lies under them."""
+    return (Lines(mesh.points, mesh.topology.ends, theme.ink, 4.0 * theme.stroke, 1.0, dashed=True),)
+
+
 def _pointed_out(
-    frame: Frame, trace: Trace, stencil: Stencil, span: int, theme: Theme, radius: float
+    trace: Trace, row: Pointed, theme: Theme, radius: float
 ) -> tuple[list[Markers], list[Lines], list[Label]]:
     """The point of a stencil, rays from its contributors, and the exact weight at each of them."""
-    k = trace.index(frame.stage) + 1 if frame.stage is not None else 0
-    parents = trace.points[max(k - span, 0)][stencil.parents]
-    point = frame.points[stencil.point]
+    stencil = row.stencil
+    parents = trace.points[row.stage - row.span][stencil.parents]
+    point = trace.points[row.stage][stencil.point]
     weights = np.abs(stencil.weights)
     size = radius * (0.7 + 1.1 * np.sqrt(weights / weights.max()))
     none = np.full(len(parents), -1)

@@ -5,9 +5,10 @@ face point vermilion, centroid green, moved point blue, selection purple.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from app.draw.picture import Colour, Shape
+from lessons.script import EXTRAORDINARY, Lesson, Meaning
 from subdivision import Role
 
 
@@ -34,6 +35,12 @@ NAMES: Mapping[Role, str] = {
     Role.CENTROID: "centroid",
     Role.MOVED: "moved",
 }
+
+WORDS: Mapping[str, str] = {
+    "original": "black", "edge": "orange", "face": "red", "centroid": "green", "moved": "blue",
+    EXTRAORDINARY: "black",
+}  # fmt: skip
+"""What captions call the colours, by the names of the roles."""
 
 SIZES: Mapping[Role, float] = {
     Role.ORIGINAL: 1.0,
@@ -63,6 +70,9 @@ class Theme:
     roles: Mapping[Role, Colour]
     stroke: float = 1.0
     type: float = 1.0
+    words: Mapping[str, str] = field(default_factory=lambda: dict(WORDS))
+    extraordinary: Colour | None = None
+    """Extraordinary vertices among the originals, where they have a colour of their own."""
 
 
 LIGHT = Theme(
@@ -102,6 +112,7 @@ DARK = Theme(
         Role.ORIGINAL: rgb("#FFFFFF"), Role.EDGE: ORANGE, Role.FACE: rgb("#F0733A"),
         Role.CENTROID: rgb("#1FC797"), Role.MOVED: rgb("#56B4E9"),
     },
+    words={**WORDS, "original": "white", EXTRAORDINARY: "white"},
 )  # fmt: skip
 
 PROJECTOR = Theme(
@@ -122,3 +133,22 @@ PROJECTOR = Theme(
 )
 
 THEMES: Mapping[str, Theme] = {t.name: t for t in (LIGHT, DARK, PROJECTOR)}
+
+YELLOW = rgb("#EFC000")
+
+
+def theme_of(lesson: Lesson, name: str, as_caption: bool) -> Theme:
+    """A theme by name; ``as_caption`` gives the lesson the colours that the lecture's own caption names."""
+    theme = THEMES[name]
+    if not as_caption:
+        return theme
+    black, green, blue = (theme.roles[r] for r in (Role.ORIGINAL, Role.CENTROID, Role.MOVED))
+    named = {"black": black, "yellow": YELLOW, "green": green, "blue": blue}
+    words = {_word(what): theme.words["original"] if w == "black" else w for what, w in lesson.colours.items()}
+    roles = {role: named[lesson.colours[role]] for role in theme.roles if role in lesson.colours}
+    special = named.get(lesson.colours.get(EXTRAORDINARY, ""))
+    return replace(theme, roles={**theme.roles, **roles}, words={**theme.words, **words}, extraordinary=special)
+
+
+def _word(what: Meaning) -> str:
+    return what.name.lower() if isinstance(what, Role) else what

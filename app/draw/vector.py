@@ -106,11 +106,16 @@ def _mark(mark: Mark) -> Iterator[str]:
     for part in FLAT[mark.shape]:
         if isinstance(part, Polygon):
             corners = np.array(part.corners) * mark.size + [mark.x, mark.y]
-            yield f'<polygon points="{places(corners)}" fill="{colour}"{look}/>'
+            paint = f'fill="{colour}"' if not part.width else _outlined(colour, part.width * mark.size)
+            yield f'<polygon points="{places(corners)}" {paint}{look}/>'
         elif isinstance(part, Disc):
             yield f'<circle {at} r="{number(part.radius * mark.size)}" fill="{colour}"{look}/>'
         else:
             yield (
-                f'<circle {at} r="{number(part.radius * mark.size)}" fill="none"'
-                f' stroke="{colour}" stroke-width="{number(part.width * mark.size)}"{look}/>'
+                f'<circle {at} r="{number(part.radius * mark.size)}"'
+                f" {_outlined(colour, part.width * mark.size)}{look}/>"
             )
+
+
+def _outlined(colour: str, width: float) -> str:
+    return f'fill="none" stroke="{colour}" stroke-width="{number(width)}"'

@@ -6,7 +6,7 @@ from functools import lru_cache
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPainterPath, QPen, QPolygonF
 
-from app.draw.flat import FLAT, Polygon, Ring
+from app.draw.flat import FLAT, Disc, Polygon
 from app.draw.picture import Colour
 from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, outline
@@ -75,9 +75,9 @@ def mark(painter: QPainter, mark: Mark) -> None:
     """A marker as it looks in the legend."""
     ink, centre = colour(mark.colour, mark.opacity), QPointF(mark.x, mark.y)
     for part in FLAT[mark.shape]:
-        is_ring = isinstance(part, Ring)
-        painter.setPen(QPen(ink, part.width * mark.size) if isinstance(part, Ring) else Qt.PenStyle.NoPen)
-        painter.setBrush(Qt.BrushStyle.NoBrush if is_ring else ink)
+        width = 0.0 if isinstance(part, Disc) else part.width
+        painter.setPen(QPen(ink, width * mark.size) if width else Qt.PenStyle.NoPen)
+        painter.setBrush(Qt.BrushStyle.NoBrush if width else ink)
         if isinstance(part, Polygon):
             painter.drawPolygon(QPolygonF([centre + QPointF(mark.size * x, mark.size * y) for x, y in part.corners]))
         else:

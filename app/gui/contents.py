@@ -56,11 +56,11 @@ class Contents(QWidget):
         self._fill()
 
     def show_state(self, state: State) -> None:
-        if state.lesson not in self._lessons:
+        if state.lesson.id not in {each.id for each in self._lessons}:
             self._lessons.append(state.lesson)
             self._fill()
         was = self._shown
-        if was is None or was.lesson is not state.lesson:
+        if was is None or was.lesson.id != state.lesson.id:
             self.list.setCurrentIndex(self._index_of(state.lesson))
             self.list.viewport().update()
         if was is None or was.options.theme != state.options.theme:
@@ -114,7 +114,8 @@ class Contents(QWidget):
         return None
 
     def _index_of(self, lesson: Lesson) -> QModelIndex:
-        rows = (k for k in range(self._model.rowCount()) if self._model.item(k).data(LESSON) is lesson)
+        listed = [self._model.item(k).data(LESSON) for k in range(self._model.rowCount())]
+        rows = (k for k, each in enumerate(listed) if each is not None and each.id == lesson.id)
         return self._model.index(next(rows, -1), 0)
 
     def _open_first(self) -> None:
@@ -127,7 +128,7 @@ class Contents(QWidget):
 
     def _open(self, index: QModelIndex) -> None:
         lesson = index.data(LESSON)
-        if lesson is not None and lesson is not self._session.state.lesson:
+        if lesson is not None and lesson.id != self._session.state.lesson.id:
             self._session.do(open_lesson, lesson)
 
     def eventFilter(self, watched: object, event: object) -> bool:
@@ -189,7 +190,7 @@ class _Painter(QStyledItemDelegate):
             painter.drawText(box.adjusted(GRID, 0, 0, -4), where, str(index.data()))
             painter.restore()
             return
-        is_open = lesson is state.lesson
+        is_open = lesson.id == state.lesson.id
         flags = option.state  # type: ignore[attr-defined]
         if is_open or flags & QStyle.StateFlag.State_MouseOver:
             painter.setPen(Qt.PenStyle.NoPen)

@@ -71,5 +71,5 @@ def _list_lessons(window: "Window", menu: QMenu) -> None:
             menu.addSection(section)
         action = menu.addAction(lesson.title)
         action.setCheckable(True)
-        action.setChecked(lesson is window.session.state.lesson)
+        action.setChecked(lesson.id == window.session.state.lesson.id)
         action.triggered.connect(lambda _, lesson=lesson: window.session.do(open_lesson, lesson))

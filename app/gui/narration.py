@@ -7,6 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
+from app.draw.compose import said
 from app.draw.primitives import Text
 from app.draw.theme import THEMES
 from app.draw.type import measure, wrapped
@@ -37,20 +38,21 @@ class Narration(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self._session = session
-        self._said: tuple[object, ...] = ()
+        self._now: tuple[object, ...] = ()
 
     def show_state(self, state: State) -> None:
-        said = (state.now, state.options.theme, state.options.presenting, state.options.blank, self._hint(state))
-        if said != self._said:
-            self._said = said
-            self.setAccessibleName(f"{state.now.text} {state.now.formula}")
+        o = state.options
+        now = (state.now, o.theme, o.as_caption, o.presenting, o.blank, self._hint(state))
+        if now != self._now:
+            self._now = now
+            self.setAccessibleName(f"{said(state, state.now)} {state.now.formula}")
             self.update()
 
     def height_for(self, width: int, window_height: int) -> int:
         """Room for every beat of the lesson, on the grid."""
         state = self._session.state
         size = self._size(state, window_height)
-        heights = [_laid(b.text, b.formula, size, width)[1] for b in state.lesson.beats]
+        heights = [_laid(said(state, b), b.formula, size, width)[1] for b in state.lesson.beats]
         tall = max(heights[0] + HINT_ROOM * size, *heights)
         most = window_height // 3
         return int(min(-(-(tall + 1.1 * size) // GRID) * GRID, most))
@@ -64,7 +66,7 @@ class Narration(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.fillRect(self.rect(), colour(theme.background))
         size = self._size(state, self.window().height())
-        lines, tall = _laid(state.now.text, state.now.formula, size, self.width())
+        lines, tall = _laid(said(state, state.now), state.now.formula, size, self.width())
         room = self.height() - 1.1 * size - (HINT_ROOM * size if self._hint(state) else 0.0)
         top = 0.3 * size + max(room - tall, 0) / 2
         for text, x, y, align in lines:

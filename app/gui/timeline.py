@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QToolTip, QWidget
 
+from app.draw.compose import said
 from app.draw.theme import THEMES
 from app.gui.look import GRID, colour, icon, mixed, type_face
 from app.gui.session import Session
@@ -65,7 +66,7 @@ class Track(QWidget):
 
     def show_state(self, state: State) -> None:
         here = current(state)
-        self.setAccessibleDescription(f"level {here.level}, {here.name or 'still'}: {state.now.text}")
+        self.setAccessibleDescription(f"level {here.level}, {here.name or 'still'}: {said(state, state.now)}")
         self.update()
 
     # -- place and time -------------------------------------------------------------------------
@@ -99,7 +100,8 @@ class Track(QWidget):
     def event(self, event: QEvent) -> bool:
         if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip:
             found = self._segment_at(event.position().x() if hasattr(event, "position") else event.pos().x())
-            words = self._session.state.lesson.beats[found.beat].text
+            state = self._session.state
+            words = said(state, state.lesson.beats[found.beat])
             QToolTip.showText(event.globalPos(), f"{found.name}: {words}" if found.name else words, self)
             return True
         return super().event(event)

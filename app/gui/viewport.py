@@ -13,7 +13,7 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
 from app.draw.compose import compose
-from app.draw.layout import fitted, overlay, pane_areas
+from app.draw.layout import fitted, overlay, pane_areas, part_at
 from app.draw.picture import Camera, Picture, Scene
 from app.draw.primitives import Area
 from app.gui.brush import paint
@@ -22,9 +22,9 @@ from app.gui.narration import Narration
 from app.gui.pointing import nearest
 from app.gui.session import Session
 from app.gui.turn import REST, Turn
-from app.state import State, look
+from app.state import Spot, State, look
 
-PANES = 4
+PANES = 6
 """How many panes the viewport has renderers for."""
 
 CALM = 160
@@ -97,7 +97,7 @@ class Viewport(QWidget):
 
     def show_state(self, state: State) -> None:
         self._state = state
-        about = (state.lesson, state.now.look)
+        about = (state.lesson.id, state.now.look)
         if about != self._about:
             self._about, self._turn = about, REST
         if state.focus is None:
@@ -222,7 +222,7 @@ class Viewport(QWidget):
         here = event.position()
         if self._press is None:
             if not self._is_pinned:
-                self._session.do(look, self.point_at(here))
+                self._session.do(look, self.spot_at(here))
             return
         self._is_drag = self._is_drag or (here - self._press).manhattanLength() > TRACK
         if self._is_drag:
@@ -240,14 +240,14 @@ class Viewport(QWidget):
 
     def _released(self, event: QMouseEvent) -> None:
         if self._press is not None and not self._is_drag and event.button() == Qt.MouseButton.LeftButton:
-            point = self.point_at(event.position())
-            self._is_pinned = point is not None
-            self._session.do(look, point)
+            spot = self.spot_at(event.position())
+            self._is_pinned = spot is not None
+            self._session.do(look, spot)
         self._press, self._is_drag = None, False
         self._calm.start()
 
     def _double_clicked(self, event: QMouseEvent) -> None:
-        if self.point_at(event.position()) is None:
+        if self.spot_at(event.position()) is None:
             self.reset_camera()
 
     def _wheel(self, event: QWheelEvent) -> None:
@@ -264,12 +264,20 @@ class Viewport(QWidget):
                 return k, (x, y, w, h)
         return 0, areas[0]
 
-    def point_at(self, at: QPointF) -> int | None:
-        """The point of the leading pane that is nearest to a place on the screen, if it is near; in front first."""
-        pane, area, camera = self._picture.panes[0], self.areas()[0], self.cameras()[0]
-        if camera is None or not isinstance(pane.content, Scene) or self._state.is_playing:
+    def spot_at(self, at: QPointF) -> Spot | None:
+        """The point that is meant by a place on the screen: the nearest in space, in front first; a box, or a disc."""
+        state = self._state
+        if state.is_playing:
             return None
-        return nearest(pane.content, camera, area, at.x(), at.y())
+        if found := part_at(self._picture, self.width(), self._tall(), at.x(), at.y(), words=False):
+            k, part = found
+            return Spot(k, part.stage, part.point) if part.point >= 0 else None
+        k, area = self._pane(at)
+        content, camera = self._picture.panes[k].content, self.cameras()[k]
+        if camera is None or not isinstance(content, Scene):
+            return None
+        point = nearest(content, camera, area, at.x(), at.y())
+        return None if point is None else Spot(k, int(state.now.views[k].at(state.progress)), point)
 
     # -- Qt's own -------------------------------------------------------------------------------
 

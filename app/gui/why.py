@@ -6,10 +6,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
-from app.draw.compose import stencil_of
+from app.draw.compose import pointed
+from app.draw.pointed import Pointed
 from app.draw.theme import NAMES, THEMES
 from app.gui.look import GRID, colour, type_face
 from app.state import State, level_of
+from lessons.script import View
 from subdivision import Role, Stencil
 from subdivision.exact import spelled, spelled_together
 
@@ -55,9 +57,11 @@ class Why(QWidget):
         if about == self._about:
             return
         self._about = about
-        stencil, _ = stencil_of(state, view)
+        if state.focus is not None:
+            view = state.now.views[state.focus.pane]
+        row = pointed(state, view)
         muted = colour(THEMES[state.options.theme].muted).name()
-        self._words.setText(_explained(state, stencil, muted))
+        self._words.setText(_explained(state, view, row, muted))
         topology = state.trace(view).topology_at(int(view.at(state.progress)))
         euler = topology.euler if topology.n_faces else "–"
         numbers = (topology.n_vertices, topology.n_edges, topology.n_faces or "–", euler)
@@ -66,10 +70,11 @@ class Why(QWidget):
         self._level.setText(f"Level {level_of(state)}")
 
 
-def _explained(state: State, stencil: Stencil | None, muted: str) -> str:
-    if stencil is None:
+def _explained(state: State, view: View, row: Pointed | None, muted: str) -> str:
+    if row is None:
         words = EMPTY if state.focus is None else FIRST
         return f'<span style="color:{muted}">{words}</span>'
+    stencil = row.stencil
     rows = [
         f'<tr><td align="right" style="padding-right:12px"><b>{escape(weight)}</b></td>'
         f'<td style="padding-right:12px; color:{muted}">×</td><td>{escape(points)}</td></tr>'
@@ -77,7 +82,7 @@ def _explained(state: State, stencil: Stencil | None, muted: str) -> str:
     ]
     total = sum((w for _, w in stencil.terms), start=0 * stencil.terms[0][1])
     return (
-        f"<p><b>{_named(state, stencil)}</b> is the sum of</p><table cellspacing='2'>{''.join(rows)}</table>"
+        f"<p><b>{_named(state, view, row)}</b> is the sum of</p><table cellspacing='2'>{''.join(rows)}</table>"
         f'<p style="color:{muted}">The weights sum to {escape(spelled(total))}.</p>'
     )
 
@@ -96,8 +101,6 @@ def _listed(parents: list[int]) -> str:
     return words if len(parents) <= MOST else f"{words} and {len(parents) - MOST} more"
 
 
-def _named(state: State, stencil: Stencil) -> str:
-    view = state.now.lead
-    roles = state.trace(view).roles_at(int(view.at(state.progress)))
-    role = f" ({NAMES[Role(int(roles[stencil.point]))]})" if stencil.point < len(roles) else ""
-    return f"v{stencil.point}{role}"
+def _named(state: State, view: View, row: Pointed) -> str:
+    role = Role(int(state.trace(view).roles_at(row.stage)[row.stencil.point]))
+    return f"v{row.stencil.point} ({NAMES[role]})"
