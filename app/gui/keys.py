@@ -10,7 +10,20 @@ from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QApplication, 
 
 from app.gui.shown import SHOWN
 from app.gui.timeline import SPEEDS, next_speed, spoken_speed
-from app.state import Options, State, back, choose, first, forward, last, skip, toggle, toggle_play, turn_level
+from app.state import (
+    Options,
+    State,
+    back,
+    choose,
+    first,
+    forward,
+    last,
+    skip,
+    toggle,
+    toggle_play,
+    turn_knob,
+    turn_level,
+)
 
 if TYPE_CHECKING:
     from app.gui.window import Window
@@ -76,6 +89,10 @@ COMMANDS = (
             lambda o: o.through, "through"),
     Command("faster", "Faster", "Lesson", ("+",), _pace(1)),
     Command("slower", "Slower", "Lesson", ("-",), _pace(-1)),
+    Command("more", "More: degree, valence", "Lesson", ("Ctrl+Right",), _wish(turn_knob, 0, 1), repeats=True),
+    Command("less", "Less: degree, valence", "Lesson", ("Ctrl+Left",), _wish(turn_knob, 0, -1), repeats=True),
+    Command("more_2", "More of the second", "Lesson", ("Ctrl+Up",), _wish(turn_knob, 1, 1), repeats=True),
+    Command("less_2", "Less of the second", "Lesson", ("Ctrl+Down",), _wish(turn_knob, 1, -1), repeats=True),
     Command("search", "Find a lesson", "Lesson", ("Ctrl+K",), lambda w: w.find_lesson(), icon="search"),
     Command("present", "Full screen", "Present", ("F5", "Shift+F5", "F11"), lambda w: w.toggle_presenting(),
             lambda o: o.presenting, "present"),

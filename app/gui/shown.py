@@ -18,8 +18,12 @@ SHOWN = (
     ("labels", "Numbers", "L"),
     ("valences", "Valences", "V"),
     ("legend", "Legend", "I"),
+    ("as_caption", "As in the caption", "A"),
 )
 """Option, name, key: in the order of the panel, the View menu and the keys."""
+
+
+TIPS = {"As in the caption": "Colours as the lecture's own caption names them, where it does (A)"}
 
 
 class Shown(QWidget):
@@ -38,6 +42,7 @@ class Shown(QWidget):
     def show_state(self, state: State) -> None:
         for option, switch in self._switches.items():
             switch.setChecked(getattr(state.options, option))
+        self._switches["as_caption"].setEnabled(bool(state.lesson.colours))
 
 
 class Switch(QCheckBox):
@@ -46,7 +51,7 @@ class Switch(QCheckBox):
     def __init__(self, name: str, key: str, session: Session) -> None:
         super().__init__(name)
         self._key, self._session = key, session
-        self.setToolTip(f"{name} ({key})")
+        self.setToolTip(TIPS.get(name, f"{name} ({key})"))
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
 
@@ -60,6 +65,7 @@ class Switch(QCheckBox):
         theme = THEMES[self._session.state.options.theme]
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setOpacity(1.0 if self.isEnabled() else 0.45)
         box = QRectF(1, (self.height() - 16) / 2, 16, 16)
         edge = theme.accent if self.isChecked() or self.underMouse() else mixed(line_of(theme), theme.ink, 0.3)
         painter.setPen(QPen(colour(edge), 1.5))

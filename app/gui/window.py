@@ -29,7 +29,9 @@ from app.gui import menus, saving
 from app.gui.banner import Banner
 from app.gui.contents import Contents
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
+from app.gui.knobs import Knobs
 from app.gui.look import GRID, colour, dress, icon, line_of, system_theme
+from app.gui.notes import Notes
 from app.gui.opening import Opener
 from app.gui.parts import column, gap, heading
 from app.gui.session import Session
@@ -70,13 +72,16 @@ class Window(QMainWindow):
         self.timeline = Timeline(session, self._button)
         self.contents = Contents(session, lessons.all_lessons())
         self.contents.found.connect(self.leave_search)
-        self.shown, self.why = Shown(session), Why()
+        self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(), Notes()
         self._build()
         self.opener = Opener(session, self.banner)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
-        self._views = (self.viewport, self.banner, self.timeline, self.contents, self.shown, self.why)
+        self._views = (
+            self.viewport, self.banner, self.timeline, self.contents,
+            self.knobs, self.shown, self.why, self.notes,
+        )  # fmt: skip
         self._restore()
         session.changed.connect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._follow_system)
@@ -244,8 +249,10 @@ class Window(QMainWindow):
         self.menuBar().setCornerWidget(corner)
 
     def _details(self) -> QWidget:
-        parts = (heading("Shown"), self.shown, gap(2 * GRID), heading("Why is it here?"), self.why)
-        inside = column(*parts, stretched=self.why)
+        shown = (heading("Shown"), self.shown, gap(2 * GRID))
+        inside = column(
+            self.knobs, *shown, heading("Why is it here?"), self.why, gap(2 * GRID), self.notes, stretched=self.why
+        )
         inside.setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)
         scroll = QScrollArea(widgetResizable=True)
         scroll.setWidget(inside)
