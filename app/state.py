@@ -8,13 +8,13 @@ the stage between; going back plays it backwards.
 """
 
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from lessons.script import Beat, Lesson, View
-from subdivision import Mesh, Trace
+from subdivision import Trace
 
 Edits: TypeAlias = tuple[tuple[int, tuple[float, float, float]], ...]
 """Control points that were dragged: (vertex, where to), one entry a vertex."""
@@ -60,6 +60,7 @@ class Options:
     labels: bool = False
     valences: bool = False
     legend: bool = True
+    control: bool = False
     as_caption: bool = False
     theme: str = "light"
     speed: float = 1.0
@@ -112,15 +113,11 @@ class State:
         return edited(view.trace, self.edits)
 
 
+@lru_cache(maxsize=32)
 def edited(trace: Trace, edits: Edits) -> Trace:
     """The trace with control points moved; itself where none is."""
-    if not edits:
-        return trace
-    points = trace.control.points.copy()
-    for vertex, to in edits:
-        if vertex < len(points):
-            points[vertex] = to
-    return trace.with_control(Mesh(trace.control.topology, points))
+    there = {vertex: np.array(to) for vertex, to in edits if vertex < trace.control.topology.n_vertices}
+    return trace.dragged(there) if there else trace
 
 
 # -- the way through a lesson -----------------------------------------------------------------
@@ -338,6 +335,11 @@ def drag(state: State, vertex: int, to: tuple[float, float, float]) -> State:
     """Move a control point; everything downstream follows."""
     kept = tuple((v, p) for v, p in state.edits if v != vertex)
     return replace(state, edits=(*kept, (vertex, to)))
+
+
+def put_back(state: State, vertex: int) -> State:
+    """A control point where the lesson has it."""
+    return replace(state, edits=tuple((v, p) for v, p in state.edits if v != vertex))
 
 
 def choose(state: State, **options: Any) -> State:

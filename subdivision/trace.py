@@ -1,5 +1,6 @@
 """A control object carried through the stages of a scheme, ready to be looked at."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -151,6 +152,43 @@ class Trace:
     def with_control(self, control: Mesh) -> "Trace":
         """The same stages on moved control points."""
         return replace(self, control=control)
+
+    def dragged(self, moves: Mapping[int, Floats]) -> "Trace":
+        """The same stages with some control points elsewhere: ``vertex -> where to``, (3,) float.
+
+        Every stage is linear, so each of its points goes by its own share of the move: one sparse
+        update for each vertex and stage, whatever the size of the rest.
+        """
+        points = self.control.points.copy()
+        ways = {vertex: np.asarray(to, dtype=float) - points[vertex] for vertex, to in moves.items()}
+        for vertex, way in ways.items():
+            points[vertex] += way
+        there = self.with_control(Mesh(self.control.topology, points))
+        done = [there.control.points]
+        for k, before in enumerate(self.points[1:]):
+            after = before.copy()
+            for vertex, way in ways.items():
+                touched, share = self._influence(vertex)[k]
+                after[touched] += share[:, None] * way
+            done.append(frozen(after))
+        there.__dict__["points"] = tuple(done)  # where a cached property keeps its value
+        return there
+
+    @cached_property
+    def _influences(self) -> dict[int, tuple[tuple[Indices, Floats], ...]]:
+        return {}
+
+    def _influence(self, vertex: int) -> tuple[tuple[Indices, Floats], ...]:
+        """For every stage, the points that a control vertex reaches and how much of it each of them holds."""
+        if vertex not in self._influences:
+            column, found = np.zeros((len(self.points[0]), 1)), []
+            column[vertex] = 1.0
+            for stage in self.stages:
+                column = stage.operator.apply(column)
+                touched = np.flatnonzero(column)
+                found.append((touched, column[touched, 0]))
+            self._influences[vertex] = tuple(found)
+        return self._influences[vertex]
 
     def frame(self, at: float) -> Frame:
         """The frame ``at`` stages into the trace; the fraction is progress through a stage."""

@@ -45,6 +45,8 @@ class Markers:
     opacity: Floats
     ids: Indices
     name: str = ""
+    stage: int = -1
+    """After how many stages they have these numbers; -1: now."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +111,14 @@ class Camera:
         )
         x, y = away @ right / half, away @ above / half
         return np.stack([width / 2 + x * height / 2, height / 2 - y * height / 2, depth], axis=1)
+
+    def place(self, x: float, y: float, depth: float, width: float, height: float) -> Floats:
+        """(3,): what ``project`` sends to a pixel and a depth."""
+        ahead = _unit(self.focal - self.position)
+        right = _unit(np.cross(ahead, self.up))
+        half = self.scale or depth * np.tan(np.radians(self.angle) / 2)
+        aside, up = (2 * x - width) / height * half, (height - 2 * y) / height * half
+        return np.asarray(self.position + depth * ahead + aside * right + up * np.cross(right, ahead))
 
 
 @dataclass(frozen=True, eq=False)

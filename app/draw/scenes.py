@@ -60,6 +60,9 @@ def scene(
     if options.ghost:
         lines = (*lines, *cues(frame, theme, faint, faint_before))
     markers = (*_leaving(frame, theme, options, radius, faint_before), *_markers(frame, theme, options, radius, faint))
+    if options.control and frame.stage is not None:
+        held, handles = _control(trace, radius, theme)
+        lines, markers = (*lines, held), (*markers, handles)
     labels = (*_marks(frame, marks, theme), *_numbers(frame, theme, options))
     if row is not None and options.weights:
         picked, rays, words = _pointed_out(trace, row, theme, radius)
@@ -241,6 +244,15 @@ def _copies(frame: Frame, theme: Theme) -> tuple[Label, ...]:
     return tuple(
         Label(frame.points[k], f"×{c}", theme.muted, 26.0) for k, c in zip(first, counts, strict=True) if c > 1
     )
+
+
+def _control(trace: Trace, radius: float, theme: Theme) -> tuple[Lines, Markers]:
+    """The control object over a later level: its net, and its points as handles to drag."""
+    points, n = trace.control.points, trace.control.topology.n_vertices
+    net = Lines(points, trace.control.topology.ends, theme.net, 2.0 * theme.stroke, 0.8)
+    size, there = np.full(n, 1.15 * radius), np.ones(n)
+    ink = theme.roles[Role.ORIGINAL]
+    return net, Markers(points, Shape.SPHERE, ink, size, there, np.arange(n), NAMES[Role.ORIGINAL], 0)
 
 
 def _marks(frame: Frame, marks: tuple[tuple[int, str], ...], theme: Theme) -> tuple[Label, ...]:

@@ -122,6 +122,8 @@ MOUSE = (
     ("Zoom", "wheel"),
     ("Reset the view", "double click beside the points"),
     ("Why is a point here?", "point at it; click to keep it"),
+    ("Move a control point", "drag it; hold X, Y or Z: along an axis"),
+    ("Put it back", "double click it"),
 )
 """What the mouse does, for the sheet of keys."""
 

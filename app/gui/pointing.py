@@ -12,13 +12,16 @@ AS_NEAR = 4.0
 """Markers whose distances differ by no more pixels are equally near: the one in front is meant."""
 
 
-def nearest(scene: Scene, camera: Camera, area: Area, x: float, y: float) -> int | None:
-    """The number of the point whose marker is nearest to a place on the screen, if one is near."""
-    found = [(m.points, m.ids) for m in scene.markers if (m.ids >= 0).any()]
+def nearest(scene: Scene, camera: Camera, area: Area, x: float, y: float) -> tuple[int, int] | None:
+    """After how many stages (-1: now), and the number of, the point whose marker is nearest to a place, if near."""
+    found = [(m.points, m.ids, np.full(len(m.ids), m.stage)) for m in scene.markers if (m.ids >= 0).any()]
     if not found:
         return None
-    points, ids = (np.concatenate(each) for each in zip(*found, strict=True))
+    points, ids, stages = (np.concatenate(each) for each in zip(*found, strict=True))
     flat = camera.project(points, area[2], area[3]) + np.array([area[0] - x, area[1] - y, 0.0])
     apart = np.where(ids >= 0, np.hypot(flat[:, 0], flat[:, 1]), np.inf)
     near = np.flatnonzero(apart < min(REACH, float(apart.min()) + AS_NEAR))
-    return int(ids[near[np.argmin(flat[near, 2])]]) if near.size else None
+    if not near.size:
+        return None
+    chosen = near[np.argmin(flat[near, 2])]
+    return int(stages[chosen]), int(ids[chosen])

@@ -15,6 +15,7 @@ SHOWN = (
     ("ghost", "Ghost", "G"),
     ("helpers", "Centroids", "C"),
     ("weights", "Weights", "W"),
+    ("control", "Control points", "P"),
     ("labels", "Numbers", "L"),
     ("valences", "Valences", "V"),
     ("legend", "Legend", "I"),

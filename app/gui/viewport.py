@@ -17,12 +17,13 @@ from app.draw.layout import fitted, overlay, pane_areas, part_at
 from app.draw.picture import Camera, Picture, Scene
 from app.draw.primitives import Area
 from app.gui.brush import paint
+from app.gui.grip import AXES, Grip
 from app.gui.look import colour
 from app.gui.narration import Narration
 from app.gui.pointing import nearest
 from app.gui.session import Session
 from app.gui.turn import REST, Turn
-from app.state import Spot, State, look
+from app.state import Spot, State, drag, look, put_back
 
 PANES = 6
 """How many panes the viewport has renderers for."""
@@ -50,6 +51,9 @@ class Viewport(QWidget):
         self._press: QPointF | None = None
         self._last = QPointF()
         self._is_drag = self._is_pinned = False
+        self._grip: Grip | None = None
+        self._axis: int | None = None
+        self._target = QPointF()
         self._plotter: Any = None
         self._painters: list[Any] = []
         self._is_soft = True
@@ -58,6 +62,8 @@ class Viewport(QWidget):
         self.narration = Narration(session, self)
         self._calm = QTimer(self, singleShot=True, interval=CALM)
         self._calm.timeout.connect(self._smooth)
+        self._pull = QTimer(self, singleShot=True, interval=0)  # one move a picture, however many the mouse sends
+        self._pull.timeout.connect(self._pulled)
 
     # -- life -----------------------------------------------------------------------------------
 
@@ -194,6 +200,8 @@ class Viewport(QWidget):
         """All input of the VTK widget: ours, or nobody's."""
         kind = event.type()
         if isinstance(event, QKeyEvent):
+            if event.key() in AXES and not event.isAutoRepeat():
+                self._axis = AXES[Qt.Key(event.key())] if kind == QEvent.Type.KeyPress else None
             event.ignore()
             return kind != QEvent.Type.ShortcutOverride
         if isinstance(event, QWheelEvent):
@@ -216,7 +224,20 @@ class Viewport(QWidget):
     def _pressed(self, event: QMouseEvent) -> None:
         self._press = self._last = event.position()
         self._is_drag = False
+        self._grip = self._gripped(event) if event.button() == Qt.MouseButton.LeftButton else None
         self._plotter.setFocus(Qt.FocusReason.MouseFocusReason)
+
+    def _gripped(self, event: QMouseEvent) -> Grip | None:
+        """The control point under the mouse, in the hand."""
+        spot, camera = self.spot_at(event.position()), self.cameras()[self._pane(event.position())[0]]
+        if spot is None or spot.stage != 0 or camera is None:
+            return None
+        points = self._state.trace(self._state.now.views[spot.pane]).control.points
+        return Grip(spot.point, points[spot.point], event.position(), camera, self.areas()[spot.pane])
+
+    def _pulled(self) -> None:
+        if self._grip is not None:
+            self._session.do(drag, self._grip.vertex, self._grip.moved(self._target, self._axis))
 
     def _moved(self, event: QMouseEvent) -> None:
         here = event.position()
@@ -225,7 +246,10 @@ class Viewport(QWidget):
                 self._session.do(look, self.spot_at(here))
             return
         self._is_drag = self._is_drag or (here - self._press).manhattanLength() > TRACK
-        if self._is_drag:
+        if self._is_drag and self._grip is not None:
+            self._target = here
+            self._pull.start()
+        elif self._is_drag:
             step = (here - self._last) / self._pane(self._press)[1][3]
             self._turned(self._dragged(event)(step.x(), step.y()))
             self._last = here
@@ -243,12 +267,20 @@ class Viewport(QWidget):
             spot = self.spot_at(event.position())
             self._is_pinned = spot is not None
             self._session.do(look, spot)
-        self._press, self._is_drag = None, False
+        if self._grip is not None and self._is_drag:
+            self._pull.stop()
+            self._target = event.position()
+            self._pulled()
+            self._session.let_go()
+        self._press, self._is_drag, self._grip = None, False, None
         self._calm.start()
 
     def _double_clicked(self, event: QMouseEvent) -> None:
-        if self.spot_at(event.position()) is None:
+        spot = self.spot_at(event.position())
+        if spot is None:
             self.reset_camera()
+        elif spot.stage == 0:
+            self._session.do(put_back, spot.point)
 
     def _wheel(self, event: QWheelEvent) -> None:
         _, (x, y, w, h) = self._pane(event.position())
@@ -276,8 +308,10 @@ class Viewport(QWidget):
         content, camera = self._picture.panes[k].content, self.cameras()[k]
         if camera is None or not isinstance(content, Scene):
             return None
-        point = nearest(content, camera, area, at.x(), at.y())
-        return None if point is None else Spot(k, int(state.now.views[k].at(state.progress)), point)
+        if (found_point := nearest(content, camera, area, at.x(), at.y())) is None:
+            return None
+        stage, point = found_point
+        return Spot(k, stage if stage >= 0 else int(state.now.views[k].at(state.progress)), point)
 
     # -- Qt's own -------------------------------------------------------------------------------
 
