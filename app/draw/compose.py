@@ -4,22 +4,27 @@ Nothing is painted: the result is a display list, so that a test can read "four 
 3/8 3/8 1/8 1/8" without a screen, and every painter paints the same.
 """
 
+from itertools import accumulate, pairwise
+
 from app.draw import diagrams, motion, stencils
 from app.draw.framing import camera
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
 from app.draw.pointed import Pointed
 from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
 from app.draw.theme import NAMES, Theme, theme_of
-from app.state import State, level_of
+from app.state import Spot, State, level_of
 from lessons.script import Beat, Kind, View
 from subdivision import Mesh, Polyline, Role, Step
+
+PYRAMID, ARRAY = 1.8, 1.25
+"""How wide the diagrams of polygons and nets are beside a scene, relative to it."""
 
 
 def compose(state: State) -> Picture:
     """The picture of a state."""
     theme, beat = dressed(state), state.now
     panes = tuple(
-        Pane(_content(state, view, theme), rect, view.title, _measured(state, view))
+        Pane(_content(state, view, theme, rect[2] * rect[3]), rect, view.title, _measured(state, view))
         for view, rect in zip(beat.views, _rects(beat), strict=True)
     )
     return Picture(
@@ -71,22 +76,34 @@ def pointed(state: State, view: View) -> Pointed | None:
     return None
 
 
+def lit(state: State, view: View) -> Spot | None:
+    """The point whose boxes light up in a diagram: the one in focus, else the lesson's own at the end of its beat."""
+    spot, views = state.focus, state.now.views
+    if spot is not None and views[spot.pane].trace is view.trace:
+        return spot
+    for k, other in sorted(enumerate(views), key=lambda one: one[1] is not view):
+        if other.trace is view.trace and other.stencil is not None and state.progress == 1:
+            return Spot(k, int(other.stop), other.stencil.point)
+    return None
+
+
 def shown_mesh(state: State, view: View) -> Mesh:
     """What a view shows now, helpers left out, also between two stages."""
     frame = state.trace(view).frame(motion.eased(view.at(state.progress)))
     return Mesh(frame.topology, frame.points[: frame.topology.n_vertices])
 
 
-def _content(state: State, view: View, theme: Theme) -> Scene | Diagram:
+def _content(state: State, view: View, theme: Theme, share: float) -> Scene | Diagram:
+    """What a pane shows that has a ``share`` of the picture."""
     trace, at, row = state.trace(view), view.at(state.progress), pointed(state, view)
     if view.kind is Kind.DIAGRAM:
-        return diagrams.diagram(trace, at, theme, state.focus)
+        return diagrams.diagram(trace, at, theme, lit(state, view))
     if view.kind is Kind.STENCIL and view.stencil is not None:
         return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme)
     # of the trace as the lesson has it: dragging a point moves no camera
     seen = camera(view.trace, view.look or state.now.look)
     over = shown_mesh(state, view.over) if view.over is not None else None
-    return scene(trace.frame(motion.eased(at)), trace, seen, state.options, theme, row, view.marks, over)
+    return scene(trace.frame(motion.eased(at)), trace, seen, state.options, theme, row, view.marks, over, share)
 
 
 def _measured(state: State, view: View) -> str:
@@ -97,13 +114,20 @@ def _measured(state: State, view: View) -> str:
 
 
 def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:
-    """Side by side; a pyramid is wide, so it takes more than its half."""
+    """Up to three side by side, a diagram wider than a scene; more of them in two rows."""
     n = len(beat.views)
-    if any(v.kind is Kind.DIAGRAM and isinstance(v.trace.control.topology, Polyline) for v in beat.views):
-        return ((0.0, 0.0, 0.36, 1.0), (0.36, 0.0, 0.64, 1.0))[:n]
-    columns = n if n <= 3 else (n + 1) // 2
-    rows = -(-n // columns)
-    return tuple(((k % columns) / columns, (k // columns) / rows, 1 / columns, 1 / rows) for k in range(n))
+    if n <= 3:
+        ends = list(accumulate(map(_share, beat.views), initial=0.0))
+        return tuple((a / ends[-1], 0.0, (b - a) / ends[-1], 1.0) for a, b in pairwise(ends))
+    columns = (n + 1) // 2
+    return tuple(((k % columns) / columns, (k // columns) / 2, 1 / columns, 1 / 2) for k in range(n))
+
+
+def _share(view: View) -> float:
+    """How much of the width a view asks for."""
+    if view.kind is not Kind.DIAGRAM:
+        return 1.0
+    return PYRAMID if isinstance(view.trace.control.topology, Polyline) else ARRAY
 
 
 def _corner(state: State) -> str:

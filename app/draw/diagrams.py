@@ -1,13 +1,15 @@
 """Diagrams of coefficients: the pyramid of a polygon, the array of a net.
 
 Every box is a row of the matrix of the stages so far, read exactly; the boxes fill as the stage
-plays, in step with the same stage in space.
+plays, in step with the same stage in space.  The point in focus and those it is made of are lit.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from math import lcm
+from math import ceil, lcm
+from typing import TypeAlias
 
 import numpy as np
 
@@ -21,47 +23,62 @@ from subdivision.exact import spelled
 from subdivision.passes import as_grid
 from subdivision.stage import Stencil
 
-PITCH = 0.82
-"""From one row of a pyramid to the next, in cells."""
+WIDE, TALL, FLAT = 0.94, 0.84, 0.72
+"""Width of a box, its height in an array, and in a pyramid, where strokes need room: in cells."""
 
-FLAT = 0.52
-"""Height of a pyramid's boxes, in cells."""
-
-THREE = 3
-"""Sums of more terms are written in two lines."""
+SHAPE_OF_ROWS, SHAPE_OF_ARRAYS = (0.8, 1.8), (0.9, 1.7)
+"""Least and most width to height of the cells of a pyramid, and of an array."""
 
 TINT = 0.24
 """How much of a role's colour fills its box."""
 
+DIM = 0.4
+"""How bright the ancestors further back than the parents are."""
+
+LINE, GLOW = 2.0, 4.5
+"""Width of a stroke in logical points, and how much wider a lit one is."""
+
+BLANK, NONE = "\u2007", "·"
+"""A space as wide as a figure; and what stands in a table for a point that does not contribute."""
+
+Light: TypeAlias = Mapping[tuple[int, int], float]
+"""How bright a point is, by the number of stages done and its own: 0..1."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Told:
+    """What a diagram is drawn of: the stages of one step, which ``begin`` stages into the trace."""
+
+    control: Connectivity
+    stages: tuple[Stage, ...]
+    begin: int
+    light: Light
+    theme: Theme
+
 
 def diagram(trace: Trace, at: float, theme: Theme, focus: Spot | None = None) -> Diagram:
-    """The step under way at stage position ``at``, as boxes; those that a box in ``focus`` is made of are lit."""
+    """The step under way at stage position ``at``, as boxes; the one in ``focus`` and its ancestors are lit."""
     k = min(int(at), len(trace.stages) - 1)
     level = trace.levels[k if at > k else max(k - (at == k and k > 0), 0)]
     begin = trace.begins(level)
-    stages = trace.step(level).stages
-    return drawn(trace.topology_at(begin), stages, eased(at) - begin, theme)
-
-
-def drawn(control: Connectivity, stages: tuple[Stage, ...], at: float, theme: Theme) -> Diagram:
-    """The stages of one step, ``at`` of them done."""
-    if isinstance(control, Grid):
-        return _array(control, stages, at, theme)
-    if isinstance(control, Polyline):
-        return _pyramid(control, stages, at, theme)
+    told = _Told(trace.topology_at(begin), trace.step(level).stages, begin, lights(trace, focus), theme)
+    if isinstance(told.control, Grid):
+        return _array(told, eased(at) - begin)
+    if isinstance(told.control, Polyline):
+        return _pyramid(told, eased(at) - begin)
     raise TypeError("only polygons and nets have a diagram of coefficients")
 
 
-def combination(stencil: Stencil, name: Callable[[int], str], below: int) -> str:
-    """``below`` times a row, as mathematics: ``3P_0+P_1`` where the weights are 3/4 and 1/4; long ones in two lines."""
-    words: list[str] = []
-    for p, w in sorted(stencil.terms, key=lambda term: term[0]):
-        count = w * below
-        words.append(name(p) if count == 1 else f"{count}{name(p)}" if isinstance(count, Fraction) else spelled(count))
-    half = len(words) if len(words) <= THREE else -(-len(words) // 2)
-    plus = "{+}"  # braces take the wide spaces off an operator
-    lines = [plus.join(words[:half]), plus.join(["", *words[half:]])]
-    return "\n".join(f"${line}$" for line in lines if line)
+def lights(trace: Trace, focus: Spot | None) -> Light:
+    """1 for the point in focus and its parents, less for the ancestors further back, to the start of their step."""
+    if focus is None or not 0 <= focus.point < len(trace.roles_at(focus.stage)):
+        return {}
+    found = {(focus.stage, focus.point): 1.0}
+    points, begin = [focus.point], trace.begins(trace.levels[max(focus.stage - 1, 0)])
+    for k in reversed(range(begin, focus.stage)):
+        points = sorted({int(parent) for p in points for parent in trace.stages[k].stencil(p).parents})
+        found |= {(k, p): 1.0 if k == focus.stage - 1 else DIM for p in points}
+    return found
 
 
 @lru_cache(maxsize=64)
@@ -77,93 +94,182 @@ def times(below: int) -> str:
     return f"× 1/{below}" if below > 1 else ""
 
 
-def tinted(colour: Colour, theme: Theme) -> Colour:
+def tinted(colour: Colour, theme: Theme, part: float = TINT) -> Colour:
     """A colour thinned with the background."""
-    r, g, b = (TINT * c + (1 - TINT) * w for c, w in zip(colour, theme.background, strict=True))
+    return mixed(colour, theme.background, part)
+
+
+def mixed(colour: Colour, other: Colour, part: float) -> Colour:
+    """``part`` of a colour, the rest of the other."""
+    r, g, b = (part * c + (1 - part) * w for c, w in zip(colour, other, strict=True))
     return r, g, b
 
 
-def _pyramid(control: Polyline, stages: tuple[Stage, ...], at: float, theme: Theme) -> Diagram:
+# -- what a box says --------------------------------------------------------------------------
+
+
+def row_texts(stencil: Stencil, below: int) -> tuple[str, ...]:
+    """``below`` times a row over a polygon: the sum in one to three lines, then its coefficients alone."""
+    terms = _sorted(stencil, below)
+    sums = [_summed(_parts(terms, n), _point) for n in (1, 2, 3)]
+    counts = [_counted(_parts(terms, n)) for n in (1, 2, 3)]
+    return tuple(dict.fromkeys((*sums, *counts)))
+
+
+def block_texts(stencil: Stencil, below: int, grid: Grid) -> tuple[str, ...]:
+    """``below`` times a row over a net: the sum, a line for each t; its coefficients as a table; which they are."""
+    terms = _sorted(stencil, below)
+    across = sorted(terms, key=lambda term: (term[0] % grid.n_t, term[0]))
+    lines = [[term for term in across if term[0] % grid.n_t == j] for j in sorted({p % grid.n_t for p, _ in across})]
+    different = sorted({count for _, count in terms}, key=float, reverse=True)
+    tersest = " ".join(map(_spelled, different))
+    return tuple(dict.fromkeys((_summed(lines, _named(grid)), _table(dict(terms), grid), tersest)))
+
+
+Terms: TypeAlias = Sequence[tuple[int, Fraction | float]]
+"""Point numbers and how often each counts."""
+
+
+def _sorted(stencil: Stencil, below: int) -> list[tuple[int, Fraction | float]]:
+    counts = [(p, w * below) for p, w in stencil.terms]
+    return sorted((p, c if isinstance(c, Fraction) else float(c)) for p, c in counts)
+
+
+def _parts(terms: Terms, n: int) -> list[Terms]:
+    """The terms in ``n`` lines or fewer, the longer ones first."""
+    size = ceil(len(terms) / n)
+    return [terms[k : k + size] for k in range(0, len(terms), size)]
+
+
+def _summed(lines: Sequence[Terms], name: Callable[[int], str]) -> str:
+    """``3P_0+P_1`` where points count 3 and 1; every line but the first begins with its plus."""
+    plus = "{+}"  # braces take the wide spaces off an operator
+    sums = [plus.join(f"{_spelled(c) if c != 1 else ''}{name(p)}" for p, c in line) for line in lines]
+    return "\n".join(f"${plus if k else ''}{line}$" for k, line in enumerate(sums))
+
+
+def _counted(lines: Sequence[Terms]) -> str:
+    return "\n".join(" ".join(_spelled(c) for _, c in line) for line in lines)
+
+
+def _table(counts: Mapping[int, Fraction | float], grid: Grid) -> str:
+    """The coefficients where their points stand in the net: s to the right, t upwards."""
+    columns = sorted({p // grid.n_t for p in counts})
+    lines = sorted({p % grid.n_t for p in counts}, reverse=True)
+    words = [[_spelled(counts[p]) if (p := i * grid.n_t + j) in counts else NONE for i in columns] for j in lines]
+    widths = [max(len(line[k]) for line in words) for k in range(len(columns))]
+    return "\n".join(" ".join(w.rjust(n, BLANK) for w, n in zip(line, widths, strict=True)) for line in words)
+
+
+def _spelled(count: Fraction | float) -> str:
+    return spelled(count) if isinstance(count, Fraction) else f"{count:.3g}"
+
+
+def _point(i: int) -> str:
+    return f"P_{{{i}}}"
+
+
+def _named(grid: Grid) -> Callable[[int], str]:
+    return lambda k: f"P_{{{k // grid.n_t}{k % grid.n_t}}}"
+
+
+# -- pyramids ---------------------------------------------------------------------------------
+
+
+def _pyramid(told: _Told, at: float) -> Diagram:
     """The split row at the bottom, every averaging row above it, half a box further right."""
     boxes: list[Box] = []
     links: list[Link] = []
     notes: list[Note] = []
     if at == 0:
-        boxes = [
-            _box(2 * i + 0.5, 0, f"${_point(i)}$", Role.ORIGINAL, theme, 1.0, i, FLAT)
-            for i in range(control.n_vertices)
-        ]
-    for k, stage in enumerate(stages[: int(np.ceil(at))]):
-        shown = _filled(stage.n_points, at - k) if k else np.ones(stage.n_points)
-        stencils, below = rows(stages[: k + 1])
-        for i in range(stage.n_points):
-            x, y = i + k / 2, -PITCH * k
-            if k == 0:  # the copies of a point slide apart
-                x = i + (1 - min(at, 1.0)) * (2 * int(stage.carries[i]) + 0.5 - i)
-            boxes.append(
-                _box(x, y, combination(stencils[i], _point, below), Role(stage.roles[i]), theme, shown[i], i, FLAT)
-            )
-            if k:
-                links.extend(_parents(stage, i, k, shown[i], theme))
-        notes.append(Note(k / 2 - 0.65, -PITCH * k, _row_name(k, below), theme.muted, "right", float(shown[0])))
-    widest, tall = stages[0].n_points, PITCH * (len(stages) - 1)
-    return Diagram((-1.75, -tall - FLAT, widest - 0.4, FLAT), tuple(boxes), tuple(links), tuple(notes))
+        boxes = [_control(told, i, (2 * i + 0.5, 0.0), _point, FLAT) for i in range(told.control.n_vertices)]
+    for k in range(ceil(at)):
+        shown = _filled(told.stages[k].n_points, at - k) if k else np.ones(told.stages[k].n_points)
+        boxes.extend(_row(told, k, at, shown))
+        links.extend(_strokes(told, k, shown))
+        name = f"average {k} {times(rows(told.stages[: k + 1])[1])}" if k else "split"
+        notes.append(Note(k / 2 - 0.6, -k, name, told.theme.muted, "right", float(shown[0])))
+    cells = (-1.6, 0.5 - len(told.stages), told.stages[0].n_points - 0.45, 0.5)
+    links.sort(key=lambda link: link.width)  # what is lit lies over the rest
+    return Diagram(cells, tuple(boxes), tuple(links), tuple(notes), shape=SHAPE_OF_ROWS)
 
 
-def _row_name(k: int, below: int) -> str:
-    return f"average {k} {times(below)}" if k else "split"
+def _row(told: _Told, k: int, at: float, shown: Floats) -> list[Box]:
+    """The boxes of stage ``k``; the copies of a point slide apart while it is split."""
+    stage, (stencils, below) = told.stages[k], rows(told.stages[: k + 1])
+    slide = 0.0 if k else 1 - min(at, 1.0)
+    found = []
+    for i in range(stage.n_points):
+        x = i + k / 2 + slide * (2 * int(stage.carries[i]) + 0.5 - i)
+        texts, role = row_texts(stencils[i], below), Role(stage.roles[i])
+        found.append(_box(told, (x, -k), texts, role, k + 1, i, float(shown[i]), FLAT, k))
+    return found
 
 
-def _parents(stage: Stage, i: int, k: int, opacity: float, theme: Theme) -> list[Link]:
-    """Strokes from a box down to the boxes it averages (not across the seam of a closed polygon)."""
-    below = [int(p) for p in stage.stencil(i).parents if abs(int(p) - i) <= 1]
-    x, y = i + k / 2, -PITCH * k
-    return [Link(x, y + FLAT / 2, p + (k - 1) / 2, y + PITCH - FLAT / 2, theme.muted, opacity) for p in below]
+def _strokes(told: _Told, k: int, shown: Floats) -> list[Link]:
+    """From the boxes of row ``k`` down to those they average (not across the seam of a closed polygon)."""
+    if k == 0:
+        return []
+    found = []
+    for i in range(told.stages[k].n_points):
+        for p in (int(p) for p in told.stages[k].stencil(i).parents if abs(int(p) - i) <= 1):
+            colour, line = _lit(told, min(_glow(told, k + 1, i), _glow(told, k, p)), told.theme.muted)
+            x, below = i + k / 2, p + (k - 1) / 2
+            found.append(Link(x, FLAT / 2 - k, below, 1 - k - FLAT / 2, colour, float(shown[i]), line))
+    return found
 
 
-def _array(control: Grid, stages: tuple[Stage, ...], at: float, theme: Theme) -> Diagram:
+# -- arrays -----------------------------------------------------------------------------------
+
+
+def _array(told: _Told, at: float) -> Diagram:
     """The net as it stands: s to the right, t upwards; boxes slide from the box they continue."""
-    largest = max(
-        (s.topology.shape for s in stages if isinstance(s.topology, Grid)), key=lambda shape: shape[0] * shape[1]
-    )
-    w, h = max(largest[0], control.n_s), max(largest[1], control.n_t)
-    extent = (-w / 2 - 0.1, -h / 2 - 0.1, w / 2 + 0.1, h / 2 + 0.45)
-    k = max(int(np.ceil(at)) - 1, 0)
+    k = max(ceil(at) - 1, 0)
+    grid, stages, t = as_grid(told.control), told.stages[: k + 1], at - k
     if at == 0:
-        start = _places(control)
-        names = [_named(control)(i) for i in range(control.n_vertices)]
-        boxes = [
-            _box(x, y, f"${n}$", Role.ORIGINAL, theme, 1.0, i)
-            for i, ((x, y), n) in enumerate(zip(start, names, strict=True))
-        ]
-        return Diagram(extent, tuple(boxes), (), (_compass(h, 1, theme),))
-    boxes = _sliding(control, stages[: k + 1], at - k, theme)
-    return Diagram(extent, tuple(boxes), (), (_compass(h, rows(stages[: k + 1])[1], theme),))
+        boxes = [_control(told, i, (x, y), _named(grid), TALL) for i, (x, y) in enumerate(_places(grid).tolist())]
+    else:
+        boxes = _sliding(told, stages, t)
+    old = as_grid(stages[-2].topology if k else grid).shape
+    new = as_grid(stages[-1].topology).shape
+    w, h = ((1 - t) * before + t * after for before, after in zip(old, new, strict=True))
+    below = rows(stages)[1] if at else 1
+    extent = (-w / 2 - 0.05, -h / 2 - 0.05, w / 2 + 0.05, h / 2 + 0.45)
+    return Diagram(extent, tuple(boxes), (), (_compass(h, below, told.theme),), shape=SHAPE_OF_ARRAYS)
 
 
-def _compass(height: int, below: int, theme: Theme) -> Note:
+def _compass(height: float, below: int, theme: Theme) -> Note:
     """Which way s and t run, and what every box is multiplied with."""
     scale = f"every box {times(below)}     " if below > 1 else ""
-    return Note(0, height / 2 + 0.25, scale + "s →   t ↑", theme.muted, "center")
+    return Note(0, height / 2 + 0.22, scale + "s →   t ↑", theme.muted, "center")
 
 
-def _sliding(control: Grid, stages: tuple[Stage, ...], t: float, theme: Theme) -> list[Box]:
+def _sliding(told: _Told, stages: tuple[Stage, ...], t: float) -> list[Box]:
     """The boxes of the last stage, ``t`` of it done: each slides over, and says its new sum from the middle on."""
     *earlier, stage = stages
-    new, old = _places(stage.topology), _places(earlier[-1].topology if earlier else control)
+    grid, done = as_grid(told.control), len(stages)
+    new, old = _places(stage.topology), _places(earlier[-1].topology if earlier else grid)
     stencils, below = rows(stages)
-    before = rows(tuple(earlier))[0] if earlier else tuple(Stencil(i, ((i, Fraction(1)),)) for i in range(len(old)))
+    before, below_before = rows(tuple(earlier)) if earlier else (_unmoved(len(old)), 1)
     roles = earlier[-1].roles if earlier else np.zeros(len(old), dtype=np.intp)
     shown = _filled(stage.n_points, t)
     boxes = []
     for i, source in enumerate(stage.carries):
-        x, y = (1 - t) * old[source] + t * new[i]
-        done = shown[i] >= 0.5
-        stencil, role = (stencils[i], stage.roles[i]) if done else (before[source], roles[source])
-        opacity = float(abs(2 * shown[i] - 1)) if stage.moves else 1.0
-        text = combination(stencil, _named(control), below)
-        boxes.append(_box(float(x), float(y), text, Role(role), theme, opacity, i))
+        if source < 0:
+            place, opacity = new[i], shown[i]
+        else:
+            place = (1 - t) * old[source] + t * new[i]
+            opacity = abs(2 * shown[i] - 1) if stage.moves else 1.0
+        if shown[i] >= 0.5 or source < 0:
+            texts, role = block_texts(stencils[i], below, grid), Role(stage.roles[i])
+        else:
+            texts, role = block_texts(before[source], below_before, grid), Role(roles[source])
+        boxes.append(_box(told, (float(place[0]), float(place[1])), texts, role, done, i, float(opacity), TALL))
     return boxes
+
+
+def _unmoved(n: int) -> tuple[Stencil, ...]:
+    return tuple(Stencil(i, ((i, Fraction(1)),)) for i in range(n))
 
 
 def _places(net: Connectivity) -> Floats:
@@ -173,6 +279,9 @@ def _places(net: Connectivity) -> Floats:
     return np.stack([i - (grid.n_s - 1) / 2, (grid.n_t - 1) / 2 - j], axis=1)
 
 
+# -- boxes ------------------------------------------------------------------------------------
+
+
 def _filled(n: int, t: float) -> Floats:
     """(n,) opacities in 0..1: boxes appear one after the other while ``t`` runs from 0 to 1."""
     soft = max(3.0, n / 4)
@@ -180,17 +289,34 @@ def _filled(n: int, t: float) -> Floats:
     return filled
 
 
+def _control(told: _Told, i: int, place: tuple[float, float], name: Callable[[int], str], height: float) -> Box:
+    return _box(told, place, (f"${name(i)}$",), Role.ORIGINAL, 0, i, 1.0, height)
+
+
 def _box(
-    x: float, y: float, text: str, role: Role, theme: Theme, opacity: float, point: int, height: float = 0.72
+    told: _Told,
+    place: tuple[float, float],
+    texts: tuple[str, ...],
+    role: Role,
+    done: int,
+    point: int,
+    opacity: float,
+    height: float,
+    group: int = 0,
 ) -> Box:
-    colour = theme.roles[role] if role is not Role.ORIGINAL else theme.muted
-    tint = tinted(colour, theme)
-    return Box(x, y, (text,), tint, theme.ink, colour, 0.94, height, opacity=float(opacity), point=point)
+    """The box of a point after ``done`` stages of the step."""
+    colour = told.theme.roles[role] if role is not Role.ORIGINAL else told.theme.muted
+    stroke, line = _lit(told, _glow(told, done, point), colour)
+    return Box(
+        *place, texts, tinted(colour, told.theme), told.theme.ink, stroke, WIDE, height,
+        opacity=opacity, point=point, stage=told.begin + done, group=group, line=line,
+    )  # fmt: skip
 
 
-def _point(i: int) -> str:
-    return f"P_{{{i}}}"
+def _glow(told: _Told, done: int, point: int) -> float:
+    return told.light.get((told.begin + done, point), 0.0)
 
 
-def _named(grid: Grid) -> Callable[[int], str]:
-    return lambda k: f"P_{{{k // grid.n_t}{k % grid.n_t}}}"
+def _lit(told: _Told, glow: float, colour: Colour) -> tuple[Colour, float]:
+    """Colour and width of a stroke that is lit so brightly."""
+    return mixed(told.theme.selection, colour, glow), LINE + GLOW * glow

@@ -36,6 +36,8 @@ TITLE, PANE_TITLE, READING, CORNER, LEGEND = 36.0, 27.0, 27.0, 25.0, 25.0
 CAPTION, FORMULA, NOTE = 36.0, 36.0, 25.0
 BOX = 34.0
 """The largest type in a box."""
+IN_BOX = 1.18
+"""From one baseline to the next in a box, relative to the size of the type."""
 
 APART = 1.4
 """Between the caption and the formula beside it, relative to the caption's size."""
@@ -242,24 +244,31 @@ def _reading(pane: Pane, area: Area, picture: Picture, height: float) -> list[Pr
 
 @dataclass(frozen=True)
 class _Cells:
-    """Where the cells of a diagram stand in its pane: scaled evenly, in the middle."""
+    """Where the cells of a diagram stand in its pane: all alike, in the middle."""
 
     x0: float
     y0: float
-    cell: float
+    wide: float
+    tall: float
 
     def at(self, x: float, y: float) -> tuple[float, float]:
-        return self.x0 + self.cell * x, self.y0 + self.cell * y
+        return self.x0 + self.wide * x, self.y0 + self.tall * y
+
+    def of(self, box: Box) -> tuple[float, float]:
+        """Width and height of a box."""
+        return self.wide * box.width, self.tall * box.height
 
 
 def _cells(diagram: Diagram, area: Area, unit: float) -> _Cells:
+    """As large as there is room for, in a shape the diagram allows."""
     left, top, right, bottom = diagram.cells
     margin = MARGIN * unit
-    room = (area[2] - 2 * margin) / max(right - left, 1e-9), (area[3] - margin) / max(bottom - top, 1e-9)
-    cell = min(*room, diagram.largest * unit)
-    return _Cells(
-        area[0] + area[2] / 2 - cell * (left + right) / 2, area[1] + area[3] / 2 - cell * (top + bottom) / 2, cell
-    )
+    wide, tall = (area[2] - 2 * margin) / max(right - left, 1e-9), (area[3] - margin) / max(bottom - top, 1e-9)
+    least, most = diagram.shape
+    tall = min(tall, wide / least, diagram.largest * unit)
+    wide = min(wide, most * tall)
+    x, y = area[0] + area[2] / 2, area[1] + area[3] / 2
+    return _Cells(x - wide * (left + right) / 2, y - tall * (top + bottom) / 2, wide, tall)
 
 
 def part_at(
@@ -277,7 +286,8 @@ def part_at(
             if isinstance(part, Dot):
                 reach = 2 * part.size * unit, 2 * part.size * unit
             else:
-                reach = part.width * cells.cell / 2, part.height * cells.cell / 2
+                wide, tall = cells.of(part)
+                reach = wide / 2, tall / 2
             if across <= reach[0] and down <= reach[1]:
                 return k, part
     return None
@@ -293,14 +303,14 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
         )
         for k in diagram.links
     ]  # fmt: skip
-    said = _spelled(diagram, cells.cell, unit * picture.scale)
+    said = _spelled(diagram, cells, unit, picture.scale)
     boxes = [
         primitive
         for b, (text, size) in zip(diagram.boxes, said, strict=True)
-        for primitive in _box(b, *cells.at(b.x, b.y), cells.cell, text, size, b.line * unit * picture.stroke)
+        for primitive in _box(b, cells, text, size, b.line * unit * picture.stroke)
     ]
     dots = [Mark(*cells.at(d.x, d.y), d.shape, d.size * unit * picture.stroke**0.5, d.colour) for d in diagram.dots]
-    usual = max(min(NOTE * unit * picture.scale, 0.5 * cells.cell), LEAST * unit)
+    usual = max(min(NOTE * unit * picture.scale, 0.5 * cells.tall), LEAST * unit)
     notes = [
         text
         for n in diagram.notes
@@ -311,44 +321,45 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
     return [*links, *boxes, *dots, *notes]
 
 
-def _spelled(diagram: Diagram, cell: float, unit: float) -> list[tuple[str, float]]:
+def _spelled(diagram: Diagram, cells: _Cells, unit: float, scale: float) -> list[tuple[str, float]]:
     """For each box the words it has room for, and their size; short words are not much larger than the longest."""
     found: list[tuple[str, float]] = []
-    choice = {group: _fullest(diagram, group, cell, unit) for group in {b.group for b in diagram.boxes}}
+    choice = {group: _fullest(diagram, group, cells, LEAST * unit) for group in {b.group for b in diagram.boxes}}
     for b in diagram.boxes:
         k, size = choice[b.group]
         text = b.texts[min(k, len(b.texts) - 1)] if size else ""
-        found.append((text, min(1.4 * size, BOX * unit, _room(b, text, cell)) if size else 0.0))
+        found.append((text, min(1.4 * size, BOX * unit * scale, _room(b, text, cells)) if size else 0.0))
     return found
 
 
-def _fullest(diagram: Diagram, group: int, cell: float, unit: float) -> tuple[int, float]:
+def _fullest(diagram: Diagram, group: int, cells: _Cells, least: float) -> tuple[int, float]:
     """Which of its texts all boxes of a group have room for, and the least of the sizes at which they hold it."""
     boxes = [b for b in diagram.boxes if b.group == group]
     for k in range(max(len(b.texts) for b in boxes)):
-        size = min(_room(b, b.texts[min(k, len(b.texts) - 1)], cell) for b in boxes)
-        if size >= LEAST * unit:
+        size = min(_room(b, b.texts[min(k, len(b.texts) - 1)], cells) for b in boxes)
+        if size >= least:
             return k, size
     return 0, 0.0
 
 
-def _room(box: Box, text: str, cell: float) -> float:
+def _room(box: Box, text: str, cells: _Cells) -> float:
     """The largest size at which a box holds its words."""
     lines = text.splitlines()
     if not lines:
         return float("inf")
-    tall = max([LINE * len(lines), *(sum(measure(line, 1.0)[1:]) for line in lines)])
+    across, down = cells.of(box)
+    tall = max([IN_BOX * len(lines), *(sum(measure(line, 1.0)[1:]) for line in lines)])
     wide = max((measure(line, 1.0)[0] for line in lines), default=0.0)
-    return min(0.94 * box.height * cell / tall, 0.9 * box.width * cell / max(wide, 1e-9))
+    return min(0.94 * down / tall, 0.92 * across / max(wide, 1e-9))
 
 
-def _box(box: Box, x: float, y: float, cell: float, said: str, size: float, line: float) -> list[Primitive]:
-    w, h = box.width * cell, box.height * cell
+def _box(box: Box, cells: _Cells, said: str, size: float, line: float) -> list[Primitive]:
+    (x, y), (w, h) = cells.at(box.x, box.y), cells.of(box)
     plate = Plate(x - w / 2, y - h / 2, w, h, box.fill, box.stroke, line, 0.14 * min(w, h), box.opacity)
     lines = said.splitlines()
-    top = y + 0.36 * size - (len(lines) - 1) * LINE * size / 2
+    top = y + 0.36 * size - (len(lines) - 1) * IN_BOX * size / 2
     words = [
-        Text(x, top + k * LINE * size, text, size, box.ink, "center", opacity=box.opacity)
+        Text(x, top + k * IN_BOX * size, text, size, box.ink, "center", opacity=box.opacity)
         for k, text in enumerate(lines)
     ]
     return [plate, *words]

@@ -209,7 +209,9 @@ class Diagram:
     notes: tuple[Note, ...] = ()
     dots: tuple[Dot, ...] = ()
     largest: float = 150.0
-    """No cell is drawn larger than this, in logical points."""
+    """No cell is drawn higher than this, in logical points."""
+    shape: tuple[float, float] = (1.0, 1.0)
+    """Least and most width to height of a cell: within them it takes the room that its pane has."""
 
 
 @dataclass(frozen=True, eq=False)
