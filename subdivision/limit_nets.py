@@ -53,6 +53,14 @@ def net_limit(t: Connectivity, weights: Mapping[Vector, Fraction]) -> Stage:
     return _told(reduce(Operator.__add__, parts), shape, kept)
 
 
+def interpolated(t: Connectivity, lost: int = 0) -> Stage:
+    """Every point is its own limit; an open polygon has ``lost`` points at either end that have none."""
+    if not isinstance(t, Polyline):
+        raise TopologyError("this scheme has limits of polygons only")
+    kept = np.arange(t.n_vertices) if t.closed else np.arange(lost, t.n_vertices - lost)
+    return _told(Pick(kept, t.n_vertices), Polyline(len(kept), t.closed), kept)
+
+
 def b_spline(degree: int) -> dict[int, Fraction]:
     """Weights of the points ``k`` further on in the limit of a point: the B-spline at ``k``, by Cox and de Boor."""
     reach = degree // 2

@@ -85,6 +85,20 @@ def average(v: Vector, name: str | None = None) -> Pass:
     return stage
 
 
+def cell_averages(name: str) -> Pass:
+    """The centroid of every edge of a polygon, or of every cell of a net; it continues the first corner."""
+
+    def stage(t: Connectivity) -> Stage:
+        cells = _cells(t)
+        if isinstance(t, Polyline):
+            return _means(name, cells, Polyline(len(cells), t.closed), t, cells[:, 0])
+        grid = as_grid(t)
+        shape = (grid.n_s - (not grid.wrap_s), grid.n_t - (not grid.wrap_t))
+        return _means(name, cells, _resized(grid, shape), grid, cells[:, 0])
+
+    return stage
+
+
 def merged(name: str, passes: Iterable[Pass]) -> Pass:
     """Several passes shown as one stage: what is a copy stays, the rest is born."""
 
@@ -138,6 +152,13 @@ def as_grid(t: Connectivity) -> Grid:
     """``t`` itself, if it is a rectangular net."""
     if not isinstance(t, Grid):
         raise TopologyError("this scheme subdivides rectangular nets, not polygons or meshes")
+    return t
+
+
+def as_polygon(t: Connectivity) -> Polyline:
+    """``t`` itself, if it is a polygon."""
+    if not isinstance(t, Polyline):
+        raise TopologyError("this scheme subdivides polygons, not nets or meshes")
     return t
 
 

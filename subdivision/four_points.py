@@ -1,0 +1,35 @@
+"""The four-point rule of Dyn, Gregory and Levin [DGL87]_, for polygons and for the outlines of meshes.
+
+A new point is ``(1/2 + w)`` of each of the two in the middle and ``-w`` of each of the outer two:
+the midpoint, pushed away from the mean of the outer two by ``2 w`` of the way between them.
+"""
+
+from fractions import Fraction
+
+import numpy as np
+
+from subdivision.arrays import Indices, Mask
+from subdivision.operators import MeanOf, Operator, Pick, mix
+from subdivision.weights import by_value
+
+CUBIC = Fraction(1, 16)
+"""The tension with which points on a cubic stay on it."""
+
+
+def pushed(midpoint: Operator, outer: Operator, tension: Fraction) -> Operator:
+    """``midpoint`` away from ``outer``, the mean of the outer two."""
+    return (1 + 2 * tension) * midpoint + (-2 * tension) * outer
+
+
+def along(before: Operator, ends: Indices, after: Operator, tension: Fraction) -> Operator:
+    """A row for each pair ``ends`` (m, 2) of points, with one point before and one after it."""
+    outer = Fraction(1, 2) * before + Fraction(1, 2) * after
+    return pushed(MeanOf(ends, before.shape[1]), outer, tension)
+
+
+def reflected(index: Indices, there: Mask, end: Indices, inner: Indices, n: int) -> Operator:
+    """Points ``index`` where they are ``there``; else the phantom ``2 end - inner`` beyond the last one."""
+    known = Pick(np.where(there, index, end), n)
+    if there.all():
+        return known
+    return mix(by_value(there), known, 2 * Pick(end, n) + (-1) * Pick(inner, n))
