@@ -292,6 +292,18 @@ def look_at(trace: Trace) -> Look:
     return FLAT if np.ptp(trace.control.points[:, 2]) < 1e-9 else Look()
 
 
+def with_diagram(beat: Beat) -> Beat:
+    """The same beat with its diagram beside it."""
+    return beside(beat, diagram_of(beat))
+
+
+def before_and_after(beat: Beat, stage: Stage, before: str, after: str) -> Beat:
+    """The same beat with two diagrams beside it: as it stood when ``stage`` was over, and as it plays."""
+    trace = beat.lead.trace
+    at = trace.index(stage) + 1
+    return beside(beat, View(trace, at, at, Kind.DIAGRAM, before), diagram_of(beat, after))
+
+
 def _beat(trace: Trace, stretch: tuple[float, float], text: str, said: Said) -> Beat:
     said.setdefault("look", look_at(trace))
     of_beat, of_view = _split(said)

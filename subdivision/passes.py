@@ -86,13 +86,11 @@ def average(v: Vector, name: str | None = None) -> Pass:
 
 
 def cell_averages(name: str) -> Pass:
-    """The centroid of every edge of a polygon, or of every cell of a net; it continues the first corner."""
+    """One round of centroid averaging: every cell of a net goes to its centroid, which continues its first corner."""
 
     def stage(t: Connectivity) -> Stage:
-        cells = _cells(t)
-        if isinstance(t, Polyline):
-            return _means(name, cells, Polyline(len(cells), t.closed), t, cells[:, 0])
         grid = as_grid(t)
+        cells = _cells(grid)
         shape = (grid.n_s - (not grid.wrap_s), grid.n_t - (not grid.wrap_t))
         return _means(name, cells, _resized(grid, shape), grid, cells[:, 0])
 

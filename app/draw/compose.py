@@ -16,7 +16,7 @@ from app.state import Spot, State, level_of
 from lessons.script import Beat, Kind, View
 from subdivision import Mesh, Polyline, Role, Step
 
-PYRAMID, ARRAY = 1.8, 1.25
+PYRAMID, ARRAY = 1.8, 1.4
 """How wide the diagrams of polygons and nets are beside a scene, relative to it."""
 
 

@@ -14,6 +14,7 @@ from subdivision.passes import (
     as_grid,
     at_once,
     average,
+    cell_averages,
     merged,
     quadruple,
     room,
@@ -50,6 +51,8 @@ def tensor_product(m: int, n: int, order: str = "") -> Scheme:
     if (m, n) == (3, 3):
         bilinear = merged("topology", [quadruple, average(S), average(T)])
         tellings["topology and geometry"] = lambda t: topology_and_geometry(as_grid(t), bilinear)
+        rounds = [bilinear, cell_averages("first round"), cell_averages("second round")]
+        tellings["two rounds"] = lambda t: told(t, rounds)
     if order:
         in_this_order = [quadruple, *_ordered(order, m, n)]
         tellings[f"quadruple, then {order}"] = lambda t: told(t, in_this_order)
