@@ -119,6 +119,14 @@ class Grid:
         return len(self.ends)
 
     @cached_property
+    def boundary(self) -> Mask:
+        """(n_edges,) bool: the edges along an open side."""
+        i, j = np.divmod(self.ends, self.n_t)
+        along_t = (i[:, 0] == i[:, 1]) & np.isin(i[:, 0], [0, self.n_s - 1]) & (not self.wrap_s)
+        along_s = (j[:, 0] == j[:, 1]) & np.isin(j[:, 0], [0, self.n_t - 1]) & (not self.wrap_t)
+        return frozen(along_s | along_t)
+
+    @cached_property
     def _loops(self) -> Indices:
         w = self._wrapped
         a, b, c, d = (x.ravel() for x in (w[:-1, :-1], w[1:, :-1], w[1:, 1:], w[:-1, 1:]))

@@ -12,6 +12,9 @@ from subdivision.arrays import Floats
 FRAME = 1.4
 """Width to height of the part of a pane that the control object fills; wider panes have room beside it."""
 
+NARROW = 0.7
+"""The same for what is slender, at least."""
+
 FLAT_FRAME = 1.55
 """The same for what is seen in parallel."""
 
@@ -28,7 +31,8 @@ def camera(trace: Trace, look: Look) -> Camera:
     towards = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
     up = np.array([-np.sin(elevation) * np.cos(azimuth), -np.sin(elevation) * np.sin(azimuth), np.cos(elevation)])
     if look.parallel:
-        return Camera(centre + 10 * radius * towards, centre, up, scale=_half_height(points, centre, up) / look.zoom)
+        half = _half_height(points, centre, up) / look.zoom
+        return Camera(centre + 10 * radius * towards, centre, up, scale=half, aspect=FLAT_FRAME)
     return _framed(Camera(centre + 4 * radius * towards, centre, up), points, look.zoom)
 
 
@@ -45,7 +49,8 @@ def _framed(camera: Camera, points: Floats, zoom: float) -> Camera:
         aside = visible * (across * right - down * camera.up)
         focal = camera.focal + aside
         camera = replace(camera, position=focal - ahead * max(fill, 0.05), focal=focal)
-    return camera
+    seen = camera.project(points, FRAME, 1.0)[:, 0]
+    return replace(camera, aspect=float(np.clip(np.ptp(seen) / FILLED, NARROW, FRAME)))
 
 
 def _half_height(points: Floats, centre: Floats, up: Floats) -> float:

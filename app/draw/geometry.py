@@ -9,10 +9,14 @@ from vtkmodules.vtkCommonDataModel import vtkPolygon
 from app.draw.picture import Faces, Lines
 from subdivision.arrays import Floats, Indices
 
+SMOOTH, CREASED = np.cos(np.radians([9.0, 17.0]))
+"""Cosines: a polygon that leans less from the mean round its corner is shaded smoothly there, one that leans more
+flatly; between the two the one passes into the other, so that nothing flickers while points move."""
+
 
 @dataclass(frozen=True, eq=False)
 class Facets:
-    """Triangles of polygons: every triangle wears the normal of its polygon, so a bent quad does not look creased.
+    """Triangles of polygons: a bent quad does not look creased, and where neighbours nearly agree they look smooth.
 
     ``points`` and ``normals`` (n, 3); ``triangles`` (m, 3).
     """
@@ -34,6 +38,15 @@ def normals(faces: Faces) -> Floats:
     return np.asarray(np.where(length > 0, area / np.maximum(length, 1e-300), [0.0, 0.0, 1.0]), dtype=float)
 
 
+def shading(faces: Faces) -> Floats:
+    """(n_corners, 3): the normal each polygon wears at each of its corners."""
+    own = normals(faces)[np.repeat(np.arange(len(faces.sizes)), faces.sizes)]
+    n = len(faces.points)
+    mean = _unit(np.stack([np.bincount(faces.corners, own[:, k], n) for k in range(3)], axis=1))[faces.corners]
+    agree = np.clip(((own * mean).sum(axis=1, keepdims=True) - CREASED) / (SMOOTH - CREASED), 0.0, 1.0)
+    return _unit(own + agree * agree * (3 - 2 * agree) * (mean - own))
+
+
 def facets(faces: Faces) -> Facets:
     """Triangles round the middle of every polygon: symmetric, and the same at every instant of a stage.
 
@@ -50,7 +63,7 @@ def facets(faces: Faces) -> Facets:
     whole = start[triangle][:, None] + np.arange(3)
     ears = [_ears(corners, start[f], faces.sizes[f]) for f in np.flatnonzero(bad & ~triangle)]
     parts = [fan[~(triangle | bad)[owner]], whole, *ears]
-    return Facets(np.vstack([corners, middle]), np.vstack([normal[owner], normal]), np.vstack(parts))
+    return Facets(np.vstack([corners, middle]), np.vstack([shading(faces), normal]), np.vstack(parts))
 
 
 def dashes(lines: Lines, length: float) -> Lines:
@@ -76,6 +89,11 @@ def _walk(faces: Faces) -> tuple[Floats, Indices, Indices, Indices]:
     ends = start + sizes
     follower[ends - 1] = start
     return np.asarray(faces.points, dtype=float)[faces.corners], start, follower, owner
+
+
+def _unit(vectors: Floats) -> Floats:
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.maximum(length, 1e-300), dtype=float)
 
 
 def _means(faces: Faces) -> Floats:

@@ -8,8 +8,8 @@ from app.draw.picture import Camera, Faces, Label, Lines, Markers, Scene, Shape
 from app.draw.pointed import Pointed
 from app.draw.theme import NAMES, SHAPES, SIZES, Theme
 from app.state import Options
-from subdivision import Connectivity, Frame, Mesh, Role, Topology, Trace
-from subdivision.arrays import Mask
+from subdivision import Connectivity, Frame, Mesh, Polyline, Role, Topology, Trace
+from subdivision.arrays import Floats, Indices, Mask
 from subdivision.exact import spelled_together
 from subdivision.rows import shown_corners, shown_faces
 
@@ -26,10 +26,23 @@ CORNERED = 0.55
 """How much smaller helpers are, and without a ring, where a face has one for every corner."""
 
 MANY = 240
-"""Beyond so many points only extraordinary vertices are marked once the points have come to rest."""
+"""Beyond so many points on a whole picture only extraordinary vertices are marked once a level is done."""
 
 MANY_ON_A_CURVE = 30
 """The same on a polygon, where none is extraordinary."""
+
+APART = 0.6
+"""Size of an extraordinary vertex marked alone, relative to an original point of the control object."""
+
+OPEN, DENSE, SHUT = 800, 4000, 60_000
+"""Edges on a whole picture: up to the first number they have their full width, up to the second their full colour;
+beyond the last only the outline is drawn, and the surface speaks for itself."""
+
+GHOSTED = 300
+"""Up to so many edges on a whole picture a net leaves a ghost."""
+
+PALE = 0.4
+"""What is left of helpers once every vertex has gone to the centroid of its own."""
 
 FEW = 60
 """Up to so many points, ids and valences are written at them."""
@@ -49,17 +62,24 @@ def scene(
     row: Pointed | None = None,
     marks: tuple[tuple[int, str], ...] = (),
     over: Mesh | None = None,
+    share: float = 1.0,
 ) -> Scene:
-    """One instant of a trace in space, ``seen`` by a camera; ``over`` is laid over it in dashes."""
-    radius = _marker_radius(trace, frame)
+    """One instant of a trace in space, ``seen`` by a camera; ``over`` is laid over it in dashes.
+
+    ``share`` is the part of the picture that the pane has: on less room less is drawn.
+    """
+    radius = _marker_radius(trace, frame) * share**-0.1
     faint = _faint(frame.topology, len(frame.points))
     faint_before = _faint(frame.before.topology, len(frame.old_points))
     faces = _faces(frame, theme) if options.surface else ()
-    lines = (*_net(frame, theme, options), *_belonging(frame, theme, options))
-    lines = (*lines, *(_ghost(frame, theme, options) if over is None else _laid_over(over, theme)))
+    lines = (*_net(frame, theme, options, share), *_belonging(frame, theme, options))
+    lines = (*lines, *(_ghost(frame, theme, options, share) if over is None else _laid_over(over, theme)))
     if options.ghost:
         lines = (*lines, *cues(frame, theme, faint, faint_before))
-    markers = (*_leaving(frame, theme, options, radius, faint_before), *_markers(frame, theme, options, radius, faint))
+    sizes = _sizes(frame, radius, alone=_extent(trace) * MARKER * APART, is_many=_is_many(frame, trace, faint, share))
+    left = _left(frame, options) if row is None else 0.0
+    leaving = _leaving(frame, theme, options, radius, faint_before, max(1 - frame.progress, left))
+    markers = (*leaving, *_markers(frame, theme, options, sizes, faint))
     if options.control and frame.stage is not None:
         held, handles = _control(trace, radius, theme)
         lines, markers = (*lines, held), (*markers, handles)
@@ -70,9 +90,13 @@ def scene(
     return Scene(seen, faces, lines, markers, labels)
 
 
+def _extent(trace: Trace) -> float:
+    """Half the diagonal of the control object."""
+    return float(np.linalg.norm(np.ptp(trace.control.points, axis=0))) / 2
+
+
 def _marker_radius(trace: Trace, frame: Frame) -> float:
-    points = trace.control.points
-    size = float(np.linalg.norm(np.ptp(points, axis=0))) / 2
+    size = _extent(trace)
     ends = frame.topology.ends
     lengths = np.linalg.norm(frame.points[ends[:, 0]] - frame.points[ends[:, 1]], axis=1)
     apart = lengths[lengths > 1e-6 * max(size, 1e-9)]
@@ -107,7 +131,7 @@ def _faces(frame: Frame, theme: Theme) -> tuple[Faces, ...]:
     return (Faces(frame.points[: t.n_vertices], sizes, corners, theme.surface),) if len(sizes) else ()
 
 
-def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
+def _net(frame: Frame, theme: Theme, options: Options, share: float) -> tuple[Lines, ...]:
     """The edges; those only hidden faces have are faint, those a stage brings grow in, sharp ones are heavy."""
     if not options.net:
         return ()
@@ -117,21 +141,36 @@ def _net(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     new = frame.newborn[: t.n_vertices][ends].all(axis=1)
     sharp = _sharp(t)
     growth = float(frame.progress)
-    width = theme.stroke * _stroke(t)
+    width = theme.stroke * _stroke(t, share)
+    strength = _strength(t, share)
+    inner = ~(faint | sharp | _outline(t))
     parts = [
         Lines(points, ends[faint], theme.faint, 0.7 * width),
-        Lines(points, ends[~faint & ~new & ~sharp], theme.edge, width),
-        Lines(points, ends[~faint & new & ~sharp], theme.edge, width, growth),
+        Lines(points, ends[_outline(t) & ~faint], theme.edge, width),
+        Lines(points, ends[inner & ~new], theme.edge, width, strength),
+        Lines(points, ends[inner & new], theme.edge, width, strength * growth),
         Lines(points, ends[~faint & sharp], theme.ink, 2.2 * width),
     ]
     return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
 
 
-def _stroke(t: Connectivity) -> float:
+def _stroke(t: Connectivity, share: float) -> float:
     """Width of an edge in logical points: thin on surfaces, heavy on curves, heaviest where no point is marked."""
     if t.n_faces:
-        return 3.2 if t.n_edges < 800 else 1.9
+        return 3.2 * float(np.clip((OPEN * share / t.n_edges) ** 0.25, 0.35, 1.0))
     return 5.5 if t.n_vertices <= MANY_ON_A_CURVE else 8.0
+
+
+def _strength(t: Connectivity, share: float) -> float:
+    """Opacity of the edges within a surface: a close mesh must not blacken it."""
+    if not t.n_faces or t.n_edges <= DENSE * share:
+        return 1.0
+    return max((DENSE * share / t.n_edges) ** 0.5, 0.26) if t.n_edges < SHUT * share else 0.0
+
+
+def _outline(t: Connectivity) -> Mask:
+    """(n_edges,) bool: edges of one face only."""
+    return np.zeros(t.n_edges, dtype=np.bool_) if isinstance(t, Polyline) else t.boundary
 
 
 def _is_cornered(t: Connectivity, n_points: int) -> bool:
@@ -153,18 +192,28 @@ def _sharp(t: Connectivity) -> Mask:
     return (t.edge_sharpness > 0) & ~t.boundary if isinstance(t, Topology) else np.zeros(t.n_edges, dtype=np.bool_)
 
 
-def _ghost(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
+def _ghost(frame: Frame, theme: Theme, options: Options, share: float) -> tuple[Lines, ...]:
     """What the stage began with, while and after points leave it."""
-    if not options.ghost or frame.stage is None or not frame.stage.moves or len(frame.points) > MANY:
+    if not options.ghost or frame.stage is None or not frame.stage.moves:
         return ()
     before = frame.before
     shown = _shown_vertices(before.topology)[before.topology.ends].all(axis=1)
+    if shown.sum() > GHOSTED * share:
+        return ()
     return (Lines(before.points, before.topology.ends[shown], theme.net, 2.4 * theme.stroke, 0.7, dashed=True),)
 
 
-def _leaving(frame: Frame, theme: Theme, options: Options, radius: float, faint: Mask) -> tuple[Markers, ...]:
+def _left(frame: Frame, options: Options) -> float:
+    """Opacity of the helpers that stay in a fragment when they have done their work: what every vertex is amid."""
+    is_fragment = bool(frame.topology.hidden.any())
+    return PALE if options.ghost and is_fragment and (frame.old_roles == Role.CENTROID).any() else 0.0
+
+
+def _leaving(
+    frame: Frame, theme: Theme, options: Options, radius: float, faint: Mask, opacity: float
+) -> tuple[Markers, ...]:
     """What no point continues, such as helpers that have done their work, fades while the stage plays."""
-    if frame.progress == 1 or not len(frame.leaving):
+    if opacity == 0 or not len(frame.leaving):
         return ()
     shown = frame.leaving[~faint[frame.leaving]]
     cornered = _is_cornered(frame.before.topology, len(frame.old_points))
@@ -173,7 +222,7 @@ def _leaving(frame: Frame, theme: Theme, options: Options, radius: float, faint:
         of = shown[frame.old_roles[shown] == role]
         if len(of) and (options.helpers or role is not Role.CENTROID):
             shape, size = _marker(role, cornered)
-            fade, none = np.full(len(of), 1.0 - frame.progress), np.full(len(of), -1)
+            fade, none = np.full(len(of), opacity), np.full(len(of), -1)
             sizes = np.full(len(of), size * radius)
             found.append(Markers(frame.old_points[of], shape, theme.roles[role], sizes, fade, none, NAMES[role]))
     return tuple(found)
@@ -186,15 +235,33 @@ def _marker(role: Role, cornered: bool) -> tuple[Shape, float]:
     return SHAPES[role], SIZES[role]
 
 
-def _markers(frame: Frame, theme: Theme, options: Options, radius: float, faint: Mask) -> tuple[Markers, ...]:
-    """The points by role; a point that changes its role wears the new one from the middle of the stage on."""
-    moves = frame.stage is not None and frame.stage.moves
-    roles = np.where(moves & (frame.progress < 0.5), frame.roles_before, frame.roles)
+def _is_many(frame: Frame, trace: Trace, faint: Mask, share: float) -> bool:
+    """Whether a level is done and has too many points to mark them all."""
+    if frame.stage is None or frame.progress < 1 or len(frame.points) > frame.topology.n_vertices:
+        return False
+    k = trace.index(frame.stage) + 1
+    is_done = frame.stage.moves or k == len(trace.stages) or trace.levels[k] > trace.levels[k - 1]
+    return is_done and (~faint).sum() > (MANY if frame.topology.n_faces else MANY_ON_A_CURVE) * share**0.7
+
+
+def _sizes(frame: Frame, radius: float, *, alone: float, is_many: bool) -> Floats:
+    """(n,) radius of each point's marker; where there are too many only extraordinary vertices have one."""
+    if is_many:
+        return np.where(_extraordinary(frame), alone, 0.0)
     cornered = _is_cornered(frame.topology, len(frame.points))
-    size = np.array([_marker(r, cornered)[1] for r in Role])[roles] * radius * motion.grown(frame.birth)
-    many = MANY if frame.topology.n_faces else MANY_ON_A_CURVE
-    if len(size) > many and frame.progress == 1 and moves:
-        size = np.where(_extraordinary(frame), 1.6 * size, 0.0)
+    sizes: Floats = np.array([_marker(r, cornered)[1] for r in Role])[_roles(frame)]
+    return sizes * radius * motion.grown(frame.birth)
+
+
+def _roles(frame: Frame) -> Indices:
+    """(n,) int: a point that changes its role wears the new one from the middle of the stage on."""
+    early = frame.stage is not None and frame.stage.moves and frame.progress < 0.5
+    return frame.roles_before if early else frame.roles
+
+
+def _markers(frame: Frame, theme: Theme, options: Options, size: Floats, faint: Mask) -> tuple[Markers, ...]:
+    """The points by role."""
+    roles, cornered = _roles(frame), _is_cornered(frame.topology, len(frame.points))
     found = []
     special = _extraordinary(frame) & (roles == Role.ORIGINAL) & (theme.extraordinary is not None)
     for role in Role:

@@ -5,11 +5,11 @@ import numpy as np
 from app.draw.picture import Camera, Faces
 from subdivision.arrays import Floats
 
-LIGHTS = (((-0.55, 0.75, 1.0), 0.78), ((0.9, -0.35, 0.7), 0.26))
+LIGHTS = (((-0.75, 0.8, 0.65), 0.8), ((0.9, -0.35, 0.7), 0.24))
 """A soft light over the left shoulder and a weak one from the right below: direction (right, up, towards the eye) and
 intensity.  They go with the camera."""
 
-SURFACE_LIGHT, MARKER_LIGHT = (0.62, 0.5), (0.66, 0.46)
+SURFACE_LIGHT, MARKER_LIGHT = (0.46, 0.7), (0.66, 0.46)
 """What a surface and a marker show without light, and what light adds."""
 
 HIDDEN = 0.17

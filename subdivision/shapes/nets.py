@@ -18,6 +18,25 @@ def net(n_s: int = 5, n_t: int = 5, *, diagonal: bool = False) -> Mesh:
     return Mesh(Grid(n_s, n_t, diagonal=diagonal), points.reshape(-1, 3))
 
 
+def landscape(*, diagonal: bool = False) -> Mesh:
+    """A net of six by six points with steep sides, for what smooths: Figures 8-10.  V/E/F 36/60/25; or 36/85/50 cut.
+
+    A tableland, a hollow before it, a hill beside it.  The outer points stand closer, since nets lose their rim.
+    """
+    side = np.array([-1.0, -0.68, -0.24, 0.24, 0.68, 1.0])
+    x, y = np.meshgrid(side, side, indexing="ij")
+    z = 0.8 * np.array([
+        [0.0, 0.1, 0.2, 0.1, 0.0, -0.1],
+        [0.1, 0.2, 1.2, 1.1, 0.2, 0.0],
+        [0.1, 0.1, 1.1, 1.3, 0.1, 0.1],
+        [0.0, -0.8, -0.7, 0.1, 0.2, 0.3],
+        [0.1, -0.6, -0.7, 0.0, 0.8, 0.4],
+        [0.3, 0.0, 0.0, 0.1, 0.5, 0.5],
+    ])  # fmt: skip
+    points = np.stack([x, y, z - (z.min() + z.max()) / 2], axis=-1)
+    return Mesh(Grid(6, 6, diagonal=diagonal), points.reshape(-1, 3))
+
+
 def cylinder_net(n_s: int = 7, n_t: int = 6, *, diagonal: bool = False) -> Mesh:
     """A net wrapped in t to a vase: ``n_s`` rings from the rim down, ``n_t`` points each, counter-clockwise."""
     down = np.linspace(0, 1, n_s)[:, None]
