@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.draw.framing import FLAT_FRAME, FRAME
 from app.draw.labels import placed
 from app.draw.picture import Box, Camera, Diagram, Dot, Note, Pane, Picture
 from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
@@ -95,8 +94,8 @@ def pane_areas(picture: Picture, width: float, height: float, words: bool = True
 
 
 def fitted(camera: Camera, area: Area) -> Camera:
-    """The camera stepped back for a pane too narrow for it: what it shows at a usual shape stays visible."""
-    back = max(1.0, (FRAME if not camera.scale else FLAT_FRAME) * area[3] / area[2])
+    """The camera stepped back for a pane too narrow for it: what it must show stays visible."""
+    back = max(1.0, camera.aspect * area[3] / area[2])
     if camera.scale:
         return replace(camera, scale=camera.scale * back)
     tangent = np.tan(np.radians(camera.angle) / 2) * back

@@ -88,7 +88,8 @@ class Label:
 class Camera:
     """A view of space: ``position``, ``focal`` point and ``up`` (3,); ``angle`` in degrees from top to bottom.
 
-    A parallel camera has ``scale``: half the visible height in units of space; else 0.
+    A parallel camera has ``scale``: half the visible height in units of space; else 0.  ``aspect`` is width to height
+    of what it must show; in a narrower pane it steps back.
     """
 
     position: Floats
@@ -96,6 +97,7 @@ class Camera:
     up: Floats
     angle: float = 30.0
     scale: float = 0.0
+    aspect: float = 1.4
 
     def project(self, points: Floats, width: float, height: float) -> Floats:
         """(n, 3): pixels right and down from the upper left, and depth away from the eye."""

@@ -16,7 +16,7 @@ from subdivision.shapes.fans import (
     triangle_sheet,
     two_triangles_and_ring,
 )
-from subdivision.shapes.nets import cylinder_net, net, torus_net
+from subdivision.shapes.nets import cylinder_net, landscape, net, torus_net
 from subdivision.shapes.polygons import closed_polygon, hook, polygon
 from subdivision.shapes.solids import (
     bipyramid,
@@ -53,6 +53,7 @@ SHAPES: Mapping[str, Callable[[], Mesh]] = MappingProxyType({
     "closed-polygon": closed_polygon,
     "net": net,
     "three-direction-net": lambda: net(diagonal=True),
+    "landscape": landscape,
     "cylinder-net": cylinder_net,
     "torus-net": torus_net,
 })  # fmt: skip
@@ -60,6 +61,6 @@ SHAPES: Mapping[str, Callable[[], Mesh]] = MappingProxyType({
 
 __all__ = [
     "SHAPES", "bipyramid", "closed_polygon", "cube", "cylinder_net", "duck", "face_and_ring", "hook", "icosahedron",
-    "mug", "net", "octahedron", "pawn", "plus_sign", "polygon", "quad_bipyramid", "quad_fan", "quad_sheet",
+    "landscape", "mug", "net", "octahedron", "pawn", "plus_sign", "polygon", "quad_bipyramid", "quad_fan", "quad_sheet",
     "tetrahedron", "torus", "torus_net", "triangle_fan", "triangle_sheet", "triangle_torus", "two_triangles_and_ring",
 ]  # fmt: skip
