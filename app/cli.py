@@ -7,9 +7,11 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import groupby
 from pathlib import Path
+from time import perf_counter
 
 import lessons
-from app.figures import BACKGROUNDS, FORMATS, FigureError, render
+from app.draw.theme import THEMES
+from app.figures import BACKGROUNDS, FORMATS, LEAST, MOST, FigureError
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, Scheme, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
@@ -62,38 +64,54 @@ class Fault(Exception):
 
 def open_window(options: argparse.Namespace) -> int:
     """Open the window, at a lesson and a step if they are named."""
-    chosen = _lesson(options.lesson) if options.lesson else None
+    if options.set and not options.lesson:
+        raise Fault("--set turns a knob of a lesson: name the lesson before it, such as 1 --set degree=5")
+    (chosen,) = _turned([_lesson(options.lesson)], dict(options.set)) if options.lesson else (None,)
     from app.gui.application import run
 
-    return run(chosen.id if chosen else None, options.step)
+    return run(chosen, options.step, options.theme, options.as_caption)
 
 
 def list_lessons(options: argparse.Namespace) -> None:
-    """Print every lesson: id, title, number of steps."""
+    """Print every lesson under the heading of its section: id, number of steps, title."""
     from app.state import stops
 
-    rows = [{"id": each.id, "title": each.title, "steps": len(stops(each))} for each in lessons.all_lessons()]
+    listed = lessons.all_lessons()
     if options.json:
-        print(json.dumps(rows, indent=2, ensure_ascii=False))
+        print(json.dumps([
+            {"id": each.id, "title": each.title, "section": each.section, "steps": len(stops(each)),
+             "knobs": [vars(knob) for knob in each.knobs], "ours": each.ours}
+            for each in listed
+        ], indent=2, ensure_ascii=False))  # fmt: skip
         return
-    width = max(len(str(row["id"])) for row in rows)
-    for row in rows:
-        print(f"{row['id']:<{width}}  {row['steps']:>3} steps  {row['title']}")
+    width = max(len(each.id) for each in listed)
+    for section, those in groupby(listed, key=lambda each: each.section):
+        print(section)
+        for each in those:
+            print(f"  {each.id:<{width}}  {len(stops(each)):>3} steps  {each.title}")
 
 
 def draw_figures(options: argparse.Namespace) -> None:
-    """Render lessons to files."""
-    chosen = [_lesson(name) for name in options.lessons] or list(lessons.all_lessons())
+    """Render lessons to files, and a page that shows them."""
+    from app import gallery
+
+    named = {_lesson(name) for name in options.lessons}
+    chosen = _turned([each for each in lessons.all_lessons() if each in named or not named], dict(options.set))
+    drawn = gallery.Drawn(
+        options.format, options.size, options.background, options.theme, options.steps, options.as_caption
+    )
+    begin = perf_counter()
+    written = 0
     try:
-        for each in chosen:
-            written = render(
-                each, options.out, formats=options.format, size=options.size, background=options.background,
-                steps=options.steps,
-            )  # fmt: skip
-            for path in written:
-                print(path)
+        for path in gallery.draw(chosen, options.out, drawn):
+            print(path, flush=True)
+            written += 1
+        if options.sheet is not None:
+            print(gallery.draw_sheet(chosen, options.sheet, drawn))
+            written += 1
     except FigureError as fault:
         raise Fault(str(fault)) from fault
+    print(f"{written} files in {perf_counter() - begin:.1f} s", file=sys.stderr)
 
 
 def subdivide_file(options: argparse.Namespace) -> None:
@@ -160,8 +178,9 @@ def _parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentPars
         epilog="commands (each has --help):\n"
         + "\n".join(f"  {name:<10} {text}" for name, (_, text) in COMMANDS.items()),
     )
-    parser.add_argument("lesson", nargs="?", metavar="LESSON", help="open at this lesson: its id, or a figure's number")
+    parser.add_argument("lesson", nargs="?", metavar="LESSON", help="open at this lesson: a figure's number, or an id")
     parser.add_argument("--step", type=_counting, metavar="N", help="... and at its N-th step, from 1")
+    _looks(parser)
     parser.set_defaults(run=open_window)
     commands = {name: _command(name, text, build) for name, (build, text) in COMMANDS.items()}
     return parser, commands
@@ -181,11 +200,25 @@ def _for_lessons(parser: argparse.ArgumentParser) -> None:
 def _for_figures(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("lessons", nargs="*", metavar="LESSON", help="which lessons; none: all")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where to; made if it is not there")
-    parser.add_argument("--format", type=_formats, default=("png",), metavar="F,F", help="some of " + ",".join(FORMATS))
+    parser.add_argument(
+        "--format", type=_formats, default=("png", "svg"), metavar="F,F",
+        help=f"some of {','.join(FORMATS)} (png,svg)",
+    )  # fmt: skip
     parser.add_argument("--size", type=_size, default=(1920, 1080), metavar="WxH", help="in pixels (1920x1080)")
-    parser.add_argument("--background", choices=BACKGROUNDS, default="white")
+    parser.add_argument("--background", choices=BACKGROUNDS, default="", help="white, or that of the theme named")
     parser.add_argument("--steps", action="store_true", help="one image for each step")
+    parser.add_argument("--sheet", type=Path, metavar="PNG", help="also one picture of them all, small, in this file")
+    _looks(parser)
     parser.set_defaults(run=draw_figures)
+
+
+def _looks(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--theme", choices=list(THEMES), default="")
+    parser.add_argument("--as-caption", action="store_true", help="colours as in the lecture's own captions")
+    parser.add_argument(
+        "--set", type=_setting, action="append", default=[], metavar="NAME=VALUE",
+        help="turn a lesson's knob, such as degree=5; 'lessons --json' lists them",
+    )  # fmt: skip
 
 
 def _for_subdivide(parser: argparse.ArgumentParser) -> None:
@@ -228,6 +261,20 @@ def _lesson(name: str) -> Lesson:
         raise Fault(unknown.args[0]) from unknown
 
 
+def _turned(chosen: list[Lesson], settings: dict[str, int]) -> list[Lesson]:
+    """The lessons, those with knobs so named turned to the values."""
+    knobs = [(knob, each) for each in chosen for knob in each.knobs]
+    for name, value in settings.items():
+        meant = [(knob, each) for knob, each in knobs if knob.name == name]
+        for knob, each in meant:
+            if not knob.least <= value <= knob.most:
+                raise Fault(f"{name} of {each.id} goes from {knob.least} to {knob.most}, not to {value}")
+        if not meant:
+            there = ", ".join(f"{knob.name} ({knob.least} to {knob.most}) of {each.id}" for knob, each in knobs)
+            raise Fault(f"there is no knob '{name}' here; there is {there or 'none'}")
+    return [each.turned(**settings) for each in chosen]
+
+
 def _require_room(control: Mesh, scheme: Scheme, levels: int) -> None:
     faces = scheme.faces_after(control.surface, levels)
     if faces > MOST_FACES:
@@ -267,9 +314,17 @@ def _formats(text: str) -> tuple[str, ...]:
 
 def _size(text: str) -> tuple[int, int]:
     width, _, height = text.lower().partition("x")
-    if not (width.isdigit() and height.isdigit()) or not (64 <= int(width) <= 16384 and 64 <= int(height) <= 16384):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a size such as 1920x1080 (64 to 16384 each way)")
+    if not (width.isdecimal() and height.isdecimal() and all(LEAST <= int(n) <= MOST for n in (width, height))):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a size such as 1920x1080 ({LEAST} to {MOST} each way)")
     return int(width), int(height)
+
+
+def _setting(text: str) -> tuple[str, int]:
+    name, _, value = text.partition("=")
+    try:
+        return name.strip(), int(value)
+    except ValueError as wrong:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a name and a whole number such as degree=5") from wrong
 
 
 def _vectors(text: str) -> list[tuple[int, ...]]:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from app.draw.compose import compose
 from app.draw.picture import Picture
-from app.state import Options, State, at_stop, start, stops
+from app.draw.theme import THEMES
+from app.state import Options, State, Stop, at_stop, start, stops
 from lessons.script import Lesson
 from subdivision.files.saving import save
 
@@ -15,6 +16,9 @@ FORMATS = ("png", "svg", "gif")
 BACKGROUNDS = ("white", "black", "transparent", "theme")
 
 PLAIN = {"white": (1.0, 1.0, 1.0), "black": (0.0, 0.0, 0.0)}
+
+UNREADABLE = {("dark", "white"): "white", ("light", "black"): "black", ("projector", "black"): "black"}
+"""The words' colour, where a theme's words cannot be read on a background."""
 
 LEAST, MOST = 64, 16384
 """Pixels."""
@@ -29,22 +33,25 @@ def render(
     out_dir: Path | str,
     formats: Sequence[str] = ("png",),
     size: tuple[int, int] = (1920, 1080),
-    background: str = "white",
+    background: str = "",
     steps: bool = False,
     *,
     theme: str = "",
+    as_caption: bool = False,
     progress: Callable[[float, str], None] = lambda done, name: None,
 ) -> list[Path]:
-    """Write a lesson's last stop, or with ``steps`` each of its stops, in each of the formats.
+    """Write the picture that stands for a lesson, or with ``steps`` each of its stops, in each of the formats.
 
     Parameters
     ----------
     formats : sequence of str
         Some of png, svg and gif; a gif is the whole lesson played, once, also with ``steps``.
     background : str
-        white, black, transparent or theme (the theme's own).
+        white, black, transparent or theme (the theme's own); if not named, white, or that of the theme named.
     theme : str
         light, dark or projector; if not named, the one that suits the background.
+    as_caption : bool
+        Colours as in the lecture's own caption.
     progress : callable
         Called with the part done (0..1) and the name of the file just written.
 
@@ -53,8 +60,9 @@ def render(
     FigureError
         If a choice is unknown or a file cannot be written.  No half-written file is left.
     """
-    formats = _checked(formats, size, background)
-    state = start(lesson, Options(theme=theme or ("dark" if background == "black" else "light")))
+    formats = _checked(formats, size, background, theme)
+    theme, background = looks(theme, background)
+    state = start(lesson, Options(theme=theme, as_caption=as_caption))
     jobs = list(_jobs(state, formats, steps))
     folder = _folder(Path(out_dir))
     written: list[Path] = []
@@ -64,9 +72,36 @@ def render(
             progress((k + done) / len(jobs), name)
 
         data = paint(size, background, part)
-        written.append(_write(folder / name, data))
+        written.append(write(folder / name, data))
         part(1.0)
     return written
+
+
+def looks(theme: str, background: str) -> tuple[str, str]:
+    """Theme and background, of which either or both may be left open ("")."""
+    return theme or ("dark" if background == "black" else "light"), background or ("theme" if theme else "white")
+
+
+def poster(lesson: Lesson) -> Stop:
+    """Where the picture stands that stands for the lesson: the end of its poster beat, else its last stop."""
+    marked = [stop for stop in stops(lesson) if lesson.beats[stop.beat].poster]
+    return (marked or stops(lesson))[-1]
+
+
+def file_name(lesson: Lesson, kind: str, step: int = 0) -> str:
+    """What the file of a lesson is called, or that of one of its steps (from 1): its id, and the knobs it turned."""
+    turned = [f"-{k.name}-{v}" for k, v in zip(lesson.knobs, lesson.values, strict=True) if v != k.start]
+    digits = max(2, len(str(len(stops(lesson)))))
+    return "".join([lesson.id, *turned, f"-{step:0{digits}}" if step else "", f".{kind}"])
+
+
+def write(path: Path, data: bytes) -> Path:
+    """Write a file whole or not at all; a FigureError tells why not."""
+    try:
+        save(path, [data])
+    except OSError as fault:
+        raise FigureError(f"{path} cannot be written: {fault.strerror or fault}; choose another folder") from fault
+    return path
 
 
 def png(state: State, size: tuple[int, int], background: str = "theme") -> bytes:
@@ -95,16 +130,14 @@ Paint = Callable[[tuple[int, int], str, Progress], bytes]
 
 def _jobs(state: State, formats: Sequence[str], steps: bool) -> Iterator[tuple[str, Paint]]:
     """Names of files and what paints them."""
-    name, places = state.lesson.id, stops(state.lesson)
-    chosen = list(enumerate(places, 1)) if steps else [(0, places[-1])]
-    digits = max(2, len(str(len(places))))
+    lesson = state.lesson
+    chosen = list(enumerate(stops(lesson), 1)) if steps else [(0, poster(lesson))]
     for kind in formats:
         if kind == "gif":
-            yield f"{name}.gif", _played(state)
+            yield file_name(lesson, kind), _played(state)
             continue
         for number, stop in chosen:
-            ending = f"-{number:0{digits}}" if number else ""
-            yield f"{name}{ending}.{kind}", _still(at_stop(state, stop), png if kind == "png" else svg)
+            yield file_name(lesson, kind, number), _still(at_stop(state, stop), png if kind == "png" else svg)
 
 
 def _still(state: State, paint: Callable[[State, tuple[int, int], str], bytes]) -> Paint:
@@ -125,12 +158,16 @@ def _on(picture: Picture, background: str) -> Picture:
     return replace(picture, background=colour) if colour else picture
 
 
-def _checked(formats: Sequence[str], size: tuple[int, int], background: str) -> tuple[str, ...]:
+def _checked(formats: Sequence[str], size: tuple[int, int], background: str, theme: str) -> tuple[str, ...]:
     for kind in formats:
         if kind not in FORMATS:
             raise FigureError(f"figures come as {', '.join(FORMATS[:-1])} or {FORMATS[-1]}, not as {kind}")
-    if background not in BACKGROUNDS:
+    if background and background not in BACKGROUNDS:
         raise FigureError(f"the background is one of {', '.join(BACKGROUNDS)}, not {background}")
+    if theme and theme not in THEMES:
+        raise FigureError(f"the theme is one of {', '.join(THEMES)}, not {theme}")
+    if (words := UNREADABLE.get((theme, background))) is not None:
+        raise FigureError(f"the {theme} theme writes in {words}, which {background} hides: choose background theme")
     if not all(LEAST <= n <= MOST for n in size):
         raise FigureError(f"a figure has {LEAST} to {MOST} pixels each way, not {size[0]}x{size[1]}")
     return tuple(dict.fromkeys(formats))
@@ -143,11 +180,3 @@ def _folder(folder: Path) -> Path:
         reason = fault.strerror or fault
         raise FigureError(f"the folder {folder} cannot be made: {reason}; choose another folder") from fault
     return folder
-
-
-def _write(path: Path, data: bytes) -> Path:
-    try:
-        save(path, [data])
-    except OSError as fault:
-        raise FigureError(f"{path} cannot be written: {fault.strerror or fault}; choose another folder") from fault
-    return path

@@ -1,6 +1,8 @@
 """The lessons, one file each.  A new file with a ``@lesson`` in it is found by itself."""
 
 import pkgutil
+import re
+from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 
@@ -16,15 +18,26 @@ def all_lessons() -> tuple[Lesson, ...]:
 
 
 def find(name: str) -> Lesson:
-    """The lesson called ``name``: its whole id, the start of one, or just a figure's number.
+    """The lesson called ``name``: a figure's number, an id, the start of one or of a word in it, a section's number.
+
+    Of several that fit it is the first of the lecture; so a section's number means its first lesson.
 
     Raises
     ------
     KeyError
         With a sentence that lists what there is.
     """
-    wanted = f"figure_{int(name):02d}" if name.isdigit() else name
-    matches = [each for each in all_lessons() if each.id == wanted or each.id.startswith(wanted + "_")]
-    if not matches:
-        raise KeyError(f"there is no lesson '{name}'; there are {', '.join(each.id for each in all_lessons())}")
-    return matches[0]
+    wanted = "_".join(re.findall(r"[\w.]+", name.lower()))
+    if (number := wanted.removeprefix("figure_")).isdecimal():
+        wanted = f"figure_{int(number):02d}"
+    begins = re.compile(rf"(^|_){re.escape(wanted)}(?!\d)")
+    readings: tuple[Callable[[Lesson], bool], ...] = (
+        lambda each: f"{each.id}_".startswith(f"{wanted}_"),
+        lambda each: each.section.split()[0].lower() == wanted,
+        lambda each: bool(wanted) and begins.search(each.id) is not None,
+    )
+    for fits in readings:
+        for each in all_lessons():
+            if fits(each):
+                return each
+    raise KeyError(f"there is no lesson '{name}'; there are {', '.join(each.id for each in all_lessons())}")

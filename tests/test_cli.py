@@ -2,13 +2,16 @@
 
 import json
 import logging
+import re
 import subprocess
 import sys
 from fractions import Fraction
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+import lessons
 from app.cli import main
 from subdivision import Mesh, files, shapes, subdivide
 from subdivision.schemes import SCHEMES
@@ -24,13 +27,87 @@ def run(capsys, *arguments):
     return status, out, err
 
 
-def test_lessons_lists_every_lesson_with_its_steps(capsys):
+def test_lessons_lists_every_lesson_with_its_steps_under_its_section(capsys):
     _, plain, _ = run(capsys, "lessons")
     _, listed, _ = run(capsys, "lessons", "--json")
     rows = json.loads(listed)
     assert {"figure_01_lane_riesenfeld", "figure_14_cube"} <= {row["id"] for row in rows}
-    assert len(plain.splitlines()) == len(rows)
-    assert all(row["steps"] > 1 and row["title"] for row in rows)
+    assert all(row["steps"] and row["title"] for row in rows)
+    headings = [line for line in plain.splitlines() if line[0] != " "]
+    assert headings == list(dict.fromkeys(row["section"] for row in rows)) == sorted(headings)
+    assert [line.split()[0] for line in plain.splitlines() if line[0] == " "] == [row["id"] for row in rows]
+    for row, lesson in zip(rows, lessons.all_lessons(), strict=True):
+        assert row["ours"] == lesson.ours
+        told = [(knob["name"], knob["least"], knob["most"], knob["start"]) for knob in row["knobs"]]
+        assert told == [(knob.name, knob.least, knob.most, knob.start) for knob in lesson.knobs]
+
+
+@pytest.mark.parametrize(
+    ("name", "starts"),
+    [
+        ("14", "figure_14"), ("1", "figure_01"), ("Figure 5", "figure_05"), ("figure_22_quartic", "figure_22"),
+        ("1a", "exercise_1a"), ("exercise 1b", "exercise_1b"), ("cube", "figure_14"), ("exercise", "exercise_1a"),
+    ],
+)  # fmt: skip
+def test_a_lesson_is_found_by_what_it_is_called(name, starts):
+    assert lessons.find(name).id.startswith(starts)
+
+
+def test_a_section_is_found_by_its_number_and_means_its_first_lesson():
+    for section in {each.section for each in lessons.all_lessons() if "." in each.section}:
+        first = next(each for each in lessons.all_lessons() if each.section == section)
+        assert lessons.find(section.split()[0]) is first
+
+
+@pytest.mark.parametrize("name", ["", " ", "figure_1x", "5.2", "_", "99", "²", "ube", "a.b(*"])
+def test_what_is_no_lesson_is_told_with_what_there_is(name):
+    with pytest.raises(KeyError, match=f"there is no lesson '{re.escape(name)}'; there are figure_01"):
+        lessons.find(name)
+
+
+def test_figures_are_drawn_once_each_in_the_lectures_order_with_the_knobs_turned(capsys, tmp_path):
+    lesson = next(each for each in lessons.all_lessons() if each.knobs)
+    knob = lesson.knobs[0]
+    value = knob.most if knob.most != knob.start else knob.least
+    args = ["figures", lesson.id, "14", lesson.id, "--set", f"{knob.name}={value}", "--out", tmp_path / "new"]
+    status, out, err = run(capsys, *args, "--format", "svg", "--theme", "projector", "--as-caption")
+    assert status == 0, err
+    drawn = [f"{lesson.id}-{knob.name}-{value}.svg", "figure_14_cube.svg"]
+    order = [each.id for each in lessons.all_lessons()]
+    drawn.sort(key=lambda name: order.index(re.split(r"[-.]", name)[0]))
+    assert out.split() == [str(tmp_path / "new" / name) for name in [*drawn, "index.html"]]
+    assert re.fullmatch(r"3 files in \d+\.\d s\n", err)
+
+
+def test_the_window_opens_at_the_lesson_with_its_knobs_turned(capsys, monkeypatch):
+    opened = []
+    monkeypatch.setitem(sys.modules, "app.gui.application", SimpleNamespace(run=lambda *given: opened.append(given)))
+    lesson = next(each for each in lessons.all_lessons() if each.knobs)
+    knob = lesson.knobs[0]
+    setting = f"{knob.name}={knob.least}"
+    assert run(capsys, lesson.id, "--step", 2, "--set", setting, "--theme", "dark", "--as-caption")[0] == 0
+    assert run(capsys)[0] == 0
+    assert opened == [(lesson.turned(**{knob.name: knob.least}), 2, "dark", True), (None, None, "", False)]
+
+
+@pytest.mark.parametrize("command", [[], ["figures", "--out", "none"]])
+def test_a_knob_that_is_not_there_or_turned_too_far_is_told_with_what_there_is(capsys, tmp_path, monkeypatch, command):
+    monkeypatch.chdir(tmp_path)
+    lesson = next(each for each in lessons.all_lessons() if each.knobs)
+    knob = lesson.knobs[0]
+    span = f"{knob.least} to {knob.most}"
+    for setting, words in [
+        (f"{knob.name}={knob.most + 1}", f"from {span}, not to {knob.most + 1}"), ("self=3", f"{knob.name} ({span})"),
+    ]:  # fmt: skip
+        status, out, err = run(capsys, *command, lesson.id, "--set", setting)
+        assert (status, out) == (1, "")
+        assert words in err
+        assert len(err.splitlines()) == 1
+    status, _, err = run(capsys, *command, lesson.id, "--set", "5")
+    assert status == 2
+    assert "degree=5" in err
+    assert "there is none" in run(capsys, *command, "14", "--set", "tallness=3")[2]
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("scheme", SCHEMES, ids=lambda s: s.name)
@@ -103,6 +180,9 @@ def test_mask_prints_the_quartic_and_explains_a_jump(capsys):
         (["figures"], 2, "--out"),
         (["figures", "--out", "x", "--size", "big"], 2, "1920x1080"),
         (["figures", "--out", "x", "--format", "pdf"], 2, "png, svg, gif"),
+        (["figures", "--out", "x", "--theme", "sepia"], 2, "projector"),
+        (["figures", "14", "--out", "x", "--theme", "dark", "--background", "white"], 1, "choose background theme"),
+        (["--set", "degree=3"], 1, "name the lesson"),
         (["subdivide", "a.obj", "-o", "b.obj", "--scheme", "loop", "--levels", "-1"], 2, "negative"),
     ],
 )

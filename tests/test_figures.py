@@ -1,8 +1,10 @@
 """Lessons as files."""
 
 import os
+import re
 import subprocess
 import sys
+from io import BytesIO
 from pathlib import Path
 
 import pytest
@@ -10,8 +12,8 @@ from PIL import Image
 
 import lessons
 from app.draw import film, raster
-from app.figures import FigureError, render
-from app.state import start, stops
+from app.figures import FigureError, png, render
+from app.state import at_stop, start, stops
 
 CUBE = lessons.find("figure_14_cube")
 SHORT = lessons.find("figure_01_lane_riesenfeld")
@@ -43,8 +45,11 @@ def test_with_steps_there_is_one_image_for_each_stop(tmp_path):
 def test_without_a_screen_a_figure_is_drawn_and_nothing_is_complained_about(tmp_path, display):
     command = [sys.executable, "-m", "app", "figures", "14", "--out", str(tmp_path), "--size", "320x180"]
     done = subprocess.run(command, env={**os.environ, "DISPLAY": display}, capture_output=True, text=True, timeout=60)
-    assert (done.returncode, done.stderr) == (0, "")
-    with Image.open(tmp_path / "figure_14_cube.png") as figure:
+    assert done.returncode == 0
+    assert re.fullmatch(r"3 files in \d+\.\d s\n", done.stderr)
+    paths = [tmp_path / name for name in ("figure_14_cube.png", "figure_14_cube.svg", "index.html")]
+    assert done.stdout.split() == [str(path) for path in paths]
+    with Image.open(paths[0]) as figure:
         assert len(set(figure.convert("RGB").get_flattened_data())) > 100
 
 
@@ -55,10 +60,57 @@ def test_the_background_is_what_was_asked_for(tmp_path, background, corner):
         assert figure.getpixel((1, 90)) == corner
 
 
-def test_svg_is_the_same_twice(tmp_path):
+def test_every_step_of_every_lesson_is_drawn_and_nothing_is_complained_about(capfd):
+    """And has more than words on it: some colours in its panes."""
+    for lesson in lessons.all_lessons():
+        for stop in stops(lesson):
+            with Image.open(BytesIO(png(at_stop(start(lesson), stop), (320, 180)))) as figure:
+                assert figure.size == (320, 180)
+                assert len(figure.getcolors(1 << 16)) > 20, f"{lesson.id}, beat {stop.beat}"
+    assert capfd.readouterr() == ("", "")
+
+
+def test_vector_figures_are_the_same_in_two_processes(tmp_path):
+    """Of every lesson; whatever order hashing gives to sets."""
+    for seed in "12":
+        command = [sys.executable, "-m", "app", "figures", "--format", "svg", "--out", str(tmp_path / seed)]
+        environment = {**os.environ, "PYTHONHASHSEED": seed, "DISPLAY": ""}
+        subprocess.run(command, env=environment, capture_output=True, check=True, timeout=300)
+    first, second = (sorted((tmp_path / seed).iterdir()) for seed in "12")
+    assert [p.name for p in first] == sorted([*(f"{each.id}.svg" for each in lessons.all_lessons()), "index.html"])
+    assert [p.read_bytes() for p in first] == [p.read_bytes() for p in second]
+
+
+def test_a_vector_figure_does_not_remember_what_was_drawn_before(tmp_path):
     (first,) = render(CUBE, tmp_path / "a", ["svg"])
     (second,) = render(CUBE, tmp_path / "b", ["svg"])
     assert first.read_bytes() == second.read_bytes()
+
+
+@pytest.mark.parametrize(("theme", "background", "corner"), [
+    ("projector", "", "#ffffff"), ("light", "", "#faf8f5"), ("dark", "", "#17191d"), ("light", "white", "#ffffff"),
+    ("", "", "#ffffff"), ("", "black", "#000000"), ("dark", "black", "#000000"),
+])  # fmt: skip
+def test_a_figure_wears_the_theme_it_was_given_and_stands_on_its_background(tmp_path, theme, background, corner):
+    (path,) = render(SHORT, tmp_path, ["svg"], background=background, theme=theme)
+    assert f'height="1080" fill="{corner}"' in path.read_text(encoding="utf-8")
+
+
+def test_a_figure_has_the_lectures_own_colours_when_asked(tmp_path):
+    named = next(each for each in lessons.all_lessons() if each.colours)
+    plain, own = (
+        [path.read_bytes() for path in render(named, tmp_path / name, ["svg"], steps=True, as_caption=is_own)]
+        for name, is_own in (("plain", False), ("own", True))
+    )
+    assert plain != own
+
+
+def test_a_lesson_with_a_knob_turned_is_another_file(tmp_path):
+    lesson = next(each for each in lessons.all_lessons() if each.knobs)
+    knob = lesson.knobs[0]
+    other = lesson.turned(**{knob.name: knob.least if knob.start != knob.least else knob.most})
+    names = {render(each, tmp_path, ["svg"])[0].name for each in (lesson, other)}
+    assert names == {f"{lesson.id}.svg", f"{lesson.id}-{knob.name}-{other.settings[knob.name]}.svg"}
 
 
 def test_a_film_rests_at_every_stop_and_plays_between(tmp_path):
@@ -86,6 +138,8 @@ def test_a_film_rests_at_every_stop_and_plays_between(tmp_path):
         ({"formats": ["pdf"]}, "png, svg or gif"),
         ({"background": "pink"}, "white, black, transparent"),
         ({"size": (10, 10)}, "64 to 16384"),
+        ({"theme": "sepia"}, "light, dark, projector"),
+        ({"theme": "dark", "background": "white"}, "choose background theme"),
     ],
 )
 def test_an_unknown_choice_is_refused_in_a_sentence(tmp_path, choice, says):

@@ -68,12 +68,13 @@ def _text(text: Text) -> Iterator[str]:
     look = f'fill="{code(text.colour)}"{faded(text.opacity)}'
     if text.halo is not None:
         rim = f'fill="none" stroke="{code(text.halo)}" stroke-width="{number(RIM * text.size)}" stroke-linejoin="round"'
-        yield f'<path d="{_outline(text.text, left, text)}" {rim}{faded(text.opacity)}/>'
+        yield f'<path d="{traced(text.text, text.size, left, text.y, text.bold)}" {rim}{faded(text.opacity)}/>'
     parts = runs(text.text, text.bold)
     for run in parts:
         x = left + run.x * text.size
         if run.is_math:
-            yield f'<path d="{_outline(f"${run.text}$", x, text)}" {look}><title>{escape(run.text)}</title></path>'
+            shape = traced(f"${run.text}$", text.size, x, text.y, text.bold)
+            yield f'<path d="{shape}" {look}><title>{escape(run.text)}</title></path>'
             continue
         # Words alone are anchored where the layout anchors them: another typeface then keeps its place.
         alone = len(parts) == 1
@@ -85,16 +86,15 @@ def _text(text: Text) -> Iterator[str]:
         )
 
 
-def _outline(words: str, x: float, text: Text) -> str:
-    vertices, codes = outline(words, text.size, text.bold)
+def traced(words: str, size: float, x: float, y: float, bold: bool = False) -> str:
+    """Words and mathematics as the outline of a ``path``, from ``x`` on the baseline ``y``."""
+    vertices, codes = outline(words, size, bold)
     parts: list[str] = []
     k = 0
     while k < len(codes):
         kind = int(codes[k])
         count = {3: 2, 4: 3}.get(kind, 1)
-        here = (
-            "" if kind == 79 else " ".join(f"{number(x + a)} {number(text.y - b)}" for a, b in vertices[k : k + count])
-        )
+        here = "" if kind == 79 else " ".join(f"{number(x + a)} {number(y - b)}" for a, b in vertices[k : k + count])
         parts.append(LETTERS.get(kind, "") + here)
         k += count
     return "".join(parts)

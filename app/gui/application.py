@@ -27,7 +27,7 @@ from app.gui.session import Session
 from app.gui.window import NAME, Window
 from app.log import LOG, keep_log
 from app.state import Options, State, open_lesson, start
-from lessons import all_lessons, find
+from lessons import all_lessons
 from lessons.script import Lesson
 
 NO_SCREEN = (
@@ -41,8 +41,11 @@ NO_OPENGL = (
 BUG = "Something went wrong inside the program. Your lesson is still open; the details are in {log}."
 
 
-def run(lesson_id: str | None = None, step: int | None = None) -> int:
-    """Open the window at a lesson and a step (from 1), and stay until it is closed; the exit status."""
+def run(lesson: Lesson | None = None, step: int | None = None, theme: str = "", as_caption: bool = False) -> int:
+    """Open the window at a lesson and a step (from 1), and stay until it is closed; the exit status.
+
+    ``theme`` overrules the one that the window remembers.
+    """
     if not has_screen():
         return _refuse(NO_SCREEN)
     app = application()
@@ -50,7 +53,7 @@ def run(lesson_id: str | None = None, step: int | None = None) -> int:
         return _refuse(NO_OPENGL)
     log = keep_log()
     settings = settings_file()
-    window = Window(Session(first_state(lesson_id, step, settings)), settings)
+    window = Window(Session(first_state(lesson, step, theme or settings_theme(settings), as_caption)), settings)
     catch_everything(window, log)
     window.show()
     QTimer.singleShot(0, window.viewport.start)
@@ -92,19 +95,18 @@ def prepare() -> None:
     # No AA_ShareOpenGLContexts: no widget moves to another window, and pyvistaqt would set off a warning with it.
 
 
-def first_state(lesson_id: str | None, step: int | None, settings: QSettings) -> State:
-    """Where the window opens."""
-    chosen = str(settings.value("theme", "light"))
-    theme = system_theme() if chosen == "system" else chosen
-    state = start(first_lesson(lesson_id), Options(theme=theme if theme in THEMES else "light"))
+def first_state(lesson: Lesson | None, step: int | None, theme: str, as_caption: bool) -> State:
+    """Where the window opens: at a lesson and a step; else at the cube, if it is there."""
+    cube = next((each for each in all_lessons() if each.id == "figure_14_cube"), all_lessons()[0])
+    state = start(lesson or cube, Options(theme=theme, as_caption=as_caption))
     return open_lesson(state, state.lesson, step - 1) if step else state
 
 
-def first_lesson(lesson_id: str | None) -> Lesson:
-    """The one asked for; else the cube, if it is there."""
-    if lesson_id is not None:
-        return find(lesson_id)
-    return next((each for each in all_lessons() if each.id == "figure_14_cube"), all_lessons()[0])
+def settings_theme(settings: QSettings) -> str:
+    """The theme that the window remembers."""
+    chosen = str(settings.value("theme", "light"))
+    theme = system_theme() if chosen == "system" else chosen
+    return theme if theme in THEMES else "light"
 
 
 # -- screens ----------------------------------------------------------------------------------
