@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from app.lab import Lab
 from lessons.script import Beat, Lesson, View
 from subdivision import Trace
 
@@ -80,7 +81,7 @@ class Spot:
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Where we are: the lesson, the beat, how far into it, what is pointed at, what was dragged.
+    """Where we are: the lesson, the beat, how far into it, what is pointed at, what was dragged, the laboratory.
 
     ``goal`` is where playing will rest; None while it rests.  ``wait`` is how many stages' time a
     still is shown before playing through goes on.
@@ -93,6 +94,7 @@ class State:
     wait: float = 0.0
     focus: Spot | None = None
     edits: Edits = ()
+    lab: Lab | None = None
     options: Options = field(default_factory=Options)
 
     @property
@@ -166,6 +168,11 @@ def axis_of(state: State) -> float:
 def level_of(state: State) -> int:
     """How many subdivision steps are complete."""
     return _level(state.now.lead.trace, float(np.floor(state.at)))[0]
+
+
+def stop_level(lesson: Lesson, stop: Stop) -> int:
+    """How many subdivision steps are complete at a stop."""
+    return _level(lesson.beats[stop.beat].lead.trace, stop.at)[0]
 
 
 def _level(trace: Trace, at: float) -> tuple[int, bool]:

@@ -18,7 +18,8 @@ IMPORTERS = {"__import__", "import_module", "importlib.import_module"}
 LAYERS = {
     "subdivision": ("subdivision",),
     "lessons": ("subdivision", "lessons"),
-    "app.state": ("subdivision", "lessons", "app.state"),
+    "app.lab": ("subdivision", "lessons", "app.lab"),
+    "app.state": ("subdivision", "lessons", "app.lab", "app.state"),
     "app.draw": ("subdivision", "lessons", "app.state", "app.draw"),
     "app.figures": ("subdivision", "lessons", "app.state", "app.draw", "app.figures"),
     "app.gui": ("subdivision", "lessons", "app"),

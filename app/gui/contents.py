@@ -14,14 +14,17 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.bench import enter
 from app.draw.theme import THEMES
 from app.gui.look import GRID, chosen_of, colour, icon, tint_of, type_face
 from app.gui.session import Session
+from app.lab import LABORATORY, SECTION
 from app.state import State, open_lesson
 from lessons.script import Lesson
 
 LESSON = Qt.ItemDataRole.UserRole + 1
-OPENED = "Opened"
+BENCH = Lesson(LABORATORY, "Your own object", SECTION, lambda: iter(()))
+"""The row of the laboratory, whatever is on its table."""
 
 
 class Contents(QWidget):
@@ -52,7 +55,7 @@ class Contents(QWidget):
         column.setSpacing(GRID)
         column.addWidget(self.search)
         column.addWidget(self.list, 1)
-        self._lessons = list(lessons)
+        self._lessons = [*lessons, BENCH]
         self._fill()
 
     def show_state(self, state: State) -> None:
@@ -75,7 +78,7 @@ class Contents(QWidget):
     def _fill(self) -> None:
         self._model.clear()
         section = ""
-        for each in sorted(self._lessons, key=lambda lesson: (lesson.section == OPENED, lesson.section)):
+        for each in sorted(self._lessons, key=lambda lesson: lesson.section):
             if each.section != section:
                 section = each.section
                 heading = QStandardItem(section)
@@ -128,7 +131,11 @@ class Contents(QWidget):
 
     def _open(self, index: QModelIndex) -> None:
         lesson = index.data(LESSON)
-        if lesson is not None and lesson.id != self._session.state.lesson.id:
+        if lesson is None or lesson.id == self._session.state.lesson.id:
+            return
+        if lesson is BENCH:
+            self._session.do(enter)
+        else:
             self._session.do(open_lesson, lesson)
 
     def eventFilter(self, watched: object, event: object) -> bool:

@@ -102,6 +102,12 @@ QPushButton:hover { background: $tint; }
 QPushButton:focus { border: 2px solid $accent; padding: 3px 15px; }
 QLineEdit { border: 1px solid $line; border-radius: 6px; padding: 5px 8px; background: $background; }
 QLineEdit:focus { border: 2px solid $accent; padding: 4px 7px; }
+QComboBox { border: 1px solid $line; border-radius: 6px; padding: 4px 8px; background: $background; }
+QComboBox:hover { background: $tint; }
+QComboBox:focus { border: 2px solid $accent; padding: 3px 7px; }
+QComboBox::drop-down { border: none; width: 20px; }
+QComboBox QAbstractItemView { border: 1px solid $line; background: $background; selection-background-color: $chosen;
+    selection-color: $ink; }
 QListView { border: none; background: transparent; outline: none; }
 QScrollArea { border: none; background: transparent; }
 QScrollBar:vertical { width: 8px; background: transparent; margin: 0; }

@@ -1,15 +1,14 @@
-"""Reads a mesh file off the window's thread, and makes a lesson of it."""
+"""Reads a mesh file off the window's thread, and puts it into the laboratory."""
 
 import logging
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
 
-from app.explore import explored
+from app.bench import put
 from app.gui.banner import Banner
 from app.gui.session import Session
-from app.state import open_lesson
-from lessons.script import Lesson
+from app.lab import Lab, lab_of, lesson_of
 from subdivision import TopologyError
 from subdivision.files import FileError, read
 
@@ -48,10 +47,10 @@ class Opener(QObject):
         if self._job is not None:
             self._banner.wait(f"Reading {self._job.path.name} …", self._forget)
 
-    def _done(self, job: object, lesson: Lesson) -> None:
+    def _done(self, job: object, lab: Lab) -> None:
         if job is self._job:
             self._forget()
-            self._session.do(open_lesson, lesson)
+            self._session.do(put, lab)
 
     def _failed(self, job: object, sentence: str) -> None:
         if job is self._job:
@@ -79,7 +78,9 @@ class _Job(QRunnable):
 
     def run(self) -> None:
         try:
-            self.told.done.emit(self, explored(read(self.path), self.path.stem))
+            lab = lab_of(read(self.path), self.path.stem)
+            lesson_of(lab)  # here, where nobody waits for a picture
+            self.told.done.emit(self, lab)
         except (FileError, TopologyError) as fault:
             self.told.failed.emit(self, str(fault))
         except MemoryError:

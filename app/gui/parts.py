@@ -1,7 +1,8 @@
 """Small pieces that panels are put together from."""
 
-from PySide6.QtGui import QFont
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtCore import QPointF, QSize, Qt
+from PySide6.QtGui import QFont, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QAbstractButton, QLabel, QVBoxLayout, QWidget
 
 from app.gui.look import type_face
 
@@ -25,8 +26,61 @@ def heading(text: str) -> QLabel:
     return label
 
 
+class Section(QWidget):
+    """A part of a panel under its name; a click on the name folds it away."""
+
+    def __init__(self, title: str, *parts: QWidget, stretched: QWidget | None = None) -> None:
+        super().__init__()
+        self.head = Head(title)
+        self.inside = column(*parts, gap(12), stretched=stretched)
+        self.head.toggled.connect(self.inside.setVisible)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.head)
+        layout.addWidget(self.inside, 1)
+
+
+class Head(QAbstractButton):
+    """The name of a section with a chevron that points down while it is unfolded."""
+
+    def __init__(self, title: str) -> None:
+        super().__init__()
+        self.setText(title)
+        self.setCheckable(True)
+        self.setChecked(True)
+        self.setFont(type_face(12, QFont.Weight.DemiBold))
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.setToolTip("Fold away or unfold")
+        self.setAccessibleName(title)
+
+    def sizeHint(self) -> QSize:
+        return QSize(120, 24)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        ink = self.palette().windowText().color()
+        painter.setPen(ink)
+        painter.drawText(self.rect(), Qt.AlignmentFlag.AlignVCenter, self.text())
+        painter.translate(self.width() - 9, self.height() / 2)
+        painter.rotate(0 if self.isChecked() else -90)
+        painter.setOpacity(0.9 if self.underMouse() or self.hasFocus() else 0.55)
+        painter.setPen(QPen(ink, 1.6, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawPolyline([QPointF(-4, -2), QPointF(0, 2), QPointF(4, -2)])
+        painter.end()
+
+
 def gap(height: int) -> QWidget:
     """Nothing, so many pixels high."""
     nothing = QWidget()
     nothing.setFixedHeight(height)
     return nothing
+
+
+def emptied(layout: QVBoxLayout) -> None:
+    """Take every part out of a column."""
+    while (item := layout.takeAt(0)) is not None:
+        if (old := item.widget()) is not None:
+            old.hide()
+            old.deleteLater()

@@ -30,10 +30,11 @@ from app.gui.banner import Banner
 from app.gui.contents import Contents
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
+from app.gui.laboratory import Laboratory
 from app.gui.look import GRID, colour, dress, icon, line_of, system_theme
 from app.gui.notes import Notes
 from app.gui.opening import Opener
-from app.gui.parts import column, gap, heading
+from app.gui.parts import Section, column
 from app.gui.session import Session
 from app.gui.sheets import About, Keys
 from app.gui.shown import Shown
@@ -72,6 +73,7 @@ class Window(QMainWindow):
         self.timeline = Timeline(session, self._button)
         self.contents = Contents(session, lessons.all_lessons())
         self.contents.found.connect(self.leave_search)
+        self.laboratory = Laboratory(session, self.banner.say)
         self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(), Notes()
         self._build()
         self.opener = Opener(session, self.banner)
@@ -80,7 +82,7 @@ class Window(QMainWindow):
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
         self._views = (
             self.viewport, self.banner, self.timeline, self.contents,
-            self.knobs, self.shown, self.why, self.notes,
+            self.laboratory, self.knobs, self.shown, self.why, self.notes,
         )  # fmt: skip
         self._restore()
         session.changed.connect(self.show_state)
@@ -249,10 +251,8 @@ class Window(QMainWindow):
         self.menuBar().setCornerWidget(corner)
 
     def _details(self) -> QWidget:
-        shown = (heading("Shown"), self.shown, gap(2 * GRID))
-        inside = column(
-            self.knobs, *shown, heading("Why is it here?"), self.why, gap(2 * GRID), self.notes, stretched=self.why
-        )
+        why = Section("Why is it here?", self.why, stretched=self.why)
+        inside = column(self.laboratory, self.knobs, Section("Shown", self.shown), why, self.notes, stretched=why)
         inside.setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)
         scroll = QScrollArea(widgetResizable=True)
         scroll.setWidget(inside)

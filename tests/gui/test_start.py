@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from app.draw.picture import Camera
-from app.explore import BUDGET, affordable, explored, natural_scheme
 from app.gui.turn import REST
+from app.lab import BUDGET, Lab, Rule, affordable, lab_of, lesson_of
 from subdivision import Grid, Mesh, shapes
-from subdivision.schemes import CATMULL_CLARK, QUAD_CENTROID, TRIANGLE_CENTROID
+from subdivision.schemes import QUAD_CENTROID, TRIANGLE_CENTROID
 
 SPACE = Camera(np.array([3.0, -4.0, 2.0]), np.zeros(3), np.array([0.0, 0.0, 1.0]))
 PLANE = Camera(np.array([0.0, 0.0, 10.0]), np.zeros(3), np.array([0.0, 1.0, 0.0]), scale=2.0)
@@ -33,8 +33,7 @@ def test_without_a_screen_there_is_one_plain_sentence(display):
     [(shapes.cube(), QUAD_CENTROID), (shapes.octahedron(), TRIANGLE_CENTROID)],
 )
 def test_a_mesh_gets_the_scheme_that_suits_its_faces(mesh, scheme):
-    lesson = explored(mesh, "mine")
-    assert natural_scheme(mesh) is scheme
+    lesson = lesson_of(lab_of(mesh, "mine"))
     assert [b.lead.trace.scheme for b in lesson.beats[:1]] == [scheme]
     assert lesson.beats[-1].stop == len(lesson.beats[0].lead.trace.stages) == 6
     assert all(beat.text for beat in lesson.beats)
@@ -44,8 +43,10 @@ def test_a_mesh_beyond_the_budget_is_played_for_fewer_levels_and_says_so():
     for levels, (n, m) in {2: (25, 50), 1: (50, 100), 0: (100, 200)}.items():
         assert n * m == BUDGET // 4**levels
         sheet = Grid(n + 1, m + 1).mesh()
-        assert affordable(Mesh(sheet, np.zeros((sheet.n_vertices, 3))), QUAD_CENTROID) == levels
-    assert affordable(shapes.cube(), CATMULL_CLARK) == 2
+        lab = Lab("sheet", Mesh(sheet, np.zeros((sheet.n_vertices, 3))), (Rule("quad-centroid"),))
+        assert affordable(lab) == levels
+        if not levels:
+            assert "too many faces" in lesson_of(lab_of(lab.control, "sheet")).beats[0].text
 
 
 def test_no_turn_leaves_the_camera_where_the_lesson_put_it():

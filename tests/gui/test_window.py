@@ -178,7 +178,7 @@ def test_a_good_file_plays_its_stages(qtbot, window, tmp_path):
     path = tmp_path / "good.obj"
     path.write_text(FILES["good"])
     window.open_file(str(path))
-    qtbot.waitUntil(lambda: window.session.state.lesson.title == "good", timeout=5000)
+    qtbot.waitUntil(lambda: window.session.state.lesson.title == "Good", timeout=5000)
     window.session.do(choose, speed=8.0)
     names = []
     for _ in range(6):

@@ -1,0 +1,121 @@
+"""Changes of the laboratory, as functions from a state to the next one.
+
+Each of them raises ``TopologyError`` with a sentence where a scheme refuses what it is given; the
+state is then as it was.
+"""
+
+from dataclasses import replace
+
+from app.lab import LABORATORY, MOST_PANES, Lab, Rule, affordable, lab_of, lesson_of, natural_family
+from app.state import State, at_stop, settle, stop_level, stops
+from subdivision import Boundary, Mesh, TopologyError, shapes
+from subdivision.catalogue import FAMILIES, Value, suiting
+
+FIRST = "cube"
+
+
+def is_open(state: State) -> bool:
+    """Whether the laboratory is what is shown."""
+    return state.lesson.id == LABORATORY
+
+
+def enter(state: State) -> State:
+    """The laboratory as it was left; the first time with a cube on the table."""
+    return put(state, state.lab or lab_of(shapes.SHAPES[FIRST](), FIRST))
+
+
+def take(state: State, name: str) -> State:
+    """A shape of the house, under the rule in use if it takes it, else the one that suits it."""
+    return replace_control(state, shapes.SHAPES[name](), name)
+
+
+def replace_control(state: State, control: Mesh, name: str) -> State:
+    """Another control object, under those of the rules that take it."""
+    lab = _of(state)
+    kept = tuple(rule for rule in lab.rules if rule.scheme.accepts(control.topology))
+    rules = kept or (Rule(natural_family(control)),)
+    return put(state, Lab(name, control, rules, max(lab.levels, 1)))
+
+
+def choose_family(state: State, pane: int, family: str) -> State:
+    """Another scheme in a pane, at its usual parameters."""
+    return _with_rule(state, pane, replace(_of(state).rules[pane], family=family, parameters=(), telling=""))
+
+
+def choose_parameter(state: State, pane: int, number: int, value: Value) -> State:
+    """Another value of a scheme's parameter in a pane."""
+    rule = _of(state).rules[pane]
+    values = (*rule.values[:number], value, *rule.values[number + 1 :])
+    return _with_rule(state, pane, replace(rule, parameters=values))
+
+
+def turn_parameter(state: State, pane: int, number: int, by: int) -> State:
+    """A parameter some steps up or down, held within its limits."""
+    rule = _of(state).rules[pane]
+    parameter = FAMILIES[rule.family].parameters[number]
+    return choose_parameter(state, pane, number, parameter.next(rule.values[number], by))
+
+
+def choose_telling(state: State, pane: int, telling: str) -> State:
+    """The same matrix in other stages."""
+    return _with_rule(state, pane, replace(_of(state).rules[pane], telling=telling))
+
+
+def choose_boundary(state: State, pane: int, boundary: Boundary) -> State:
+    """What happens where the control object ends."""
+    return _with_rule(state, pane, replace(_of(state).rules[pane], boundary=boundary))
+
+
+def compare(state: State) -> State:
+    """One pane more: the next scheme that takes the control object."""
+    lab = _of(state)
+    if len(lab.rules) == MOST_PANES:
+        raise TopologyError(f"{MOST_PANES} panes are as many as can be compared")
+    families = [family.name for family in suiting(lab.control.topology)]
+    free = [name for name in families if name not in {rule.family for rule in lab.rules}] or families
+    rule = replace(lab.rules[0], family=free[0], parameters=(), telling=lab.rules[0].told)  # told alike, if it can be
+    return put(state, replace(lab, rules=(*lab.rules, rule)))
+
+
+def drop(state: State, pane: int) -> State:
+    """One pane less; the last one stays."""
+    lab = _of(state)
+    rules = lab.rules[:pane] + lab.rules[pane + 1 :]
+    return put(state, replace(lab, rules=rules)) if rules else state
+
+
+def set_levels(state: State, levels: int) -> State:
+    """As many levels, or what can be played well."""
+    return put(state, replace(_of(state), levels=max(levels, 1)))
+
+
+def put(state: State, lab: Lab) -> State:
+    """Show a laboratory: another control object from its first stop, the same one where the story stands."""
+    for rule in lab.rules:
+        rule.scheme.require(rule.bounded(lab.control).topology)
+    levels = min(lab.levels, affordable(lab))
+    lab = lab if levels == lab.levels else replace(lab, levels=levels)
+    state = settle(state)
+    is_same = is_open(state) and state.lab is not None and state.lab.control is lab.control
+    there = replace(state, lab=lab, lesson=lesson_of(lab), focus=None, edits=state.edits if is_same else ())
+    place = _same_place(state, there) if is_same else 0
+    return at_stop(there, stops(there.lesson)[place])
+
+
+def _same_place(state: State, there: State) -> int:
+    """The stop of the new story that is as far as the state was: the same stage, else the same level."""
+    old, new = stops(state.lesson), stops(there.lesson)
+    here = next(k for k, s in enumerate(old) if (s.beat, s.at) >= (state.beat, state.at))
+    if len(old) == len(new):
+        return here
+    level = stop_level(state.lesson, old[here])
+    return max(k for k, s in enumerate(new) if stop_level(there.lesson, s) <= level)
+
+
+def _of(state: State) -> Lab:
+    return state.lab or lab_of(shapes.SHAPES[FIRST](), FIRST)
+
+
+def _with_rule(state: State, pane: int, rule: Rule) -> State:
+    lab = _of(state)
+    return put(state, replace(lab, rules=(*lab.rules[:pane], rule, *lab.rules[pane + 1 :])))

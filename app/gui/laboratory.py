@@ -1,0 +1,178 @@
+"""The panel of the laboratory: the object on the table, and the rules that subdivide it."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
+
+from app import bench
+from app.gui.look import GRID
+from app.gui.parts import Section, emptied
+from app.gui.session import Session
+from app.gui.stepper import Stepper
+from app.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, titled
+from app.state import State
+from subdivision import Boundary, Topology, TopologyError, shapes
+from subdivision.catalogue import FAMILIES, Family, Parameter, Value, suiting
+
+BOUNDARIES = tuple((b.value.replace("-", " ").capitalize(), b) for b in Boundary)
+
+
+class Laboratory(QWidget):
+    """Shown while the laboratory is open; a wish that a scheme refuses is answered with its sentence."""
+
+    def __init__(self, session: Session, say: Callable[[str], None]) -> None:
+        super().__init__()
+        self._session, self._say = session, say
+        self._about: tuple[object, ...] = ()
+        self.panes: list[Pane] = []
+        self.shape = Choice("Object", self._take)
+        self.levels = Stepper("levels", self._turn_levels)
+        self.more = QPushButton("Compare with …")
+        self.more.setToolTip("Another scheme, telling or rule beside it")
+        self.more.clicked.connect(lambda: self.wish(bench.compare))
+        rules = QWidget()
+        self._column = QVBoxLayout(rules)
+        self._column.setContentsMargins(0, GRID // 2, 0, GRID)
+        self._column.setSpacing(GRID // 2)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(Section("Laboratory", self.shape, self.levels, rules, self.more))
+
+    def wish(self, transition: Callable[..., State], *args: Any) -> None:
+        """Do it, or say why not; what is shown is then what is so."""
+        try:
+            self._session.do(transition, *args)
+        except TopologyError as refusal:
+            self._say(str(refusal))
+            self._about = ()
+            self.show_state(self._session.state)
+
+    def show_state(self, state: State) -> None:
+        is_open = bench.is_open(state) and state.lab is not None
+        self.setVisible(is_open)
+        if not is_open or state.lab is None:
+            return
+        lab = state.lab
+        about = (lab.control, tuple(rule.family for rule in lab.rules))
+        if about != self._about:
+            self._about = about
+            self._fill(lab)
+        names = [(titled(name), name) for name in shapes.SHAPES]
+        own = [] if lab.name in shapes.SHAPES else [(lab.name, lab.name)]
+        self.shape.show_values([*own, *names], lab.name)
+        most = min(affordable(lab), MOST_LEVELS)
+        self.levels.show_value(str(lab.levels), is_least=lab.levels <= 1, is_most=lab.levels >= most)
+        for pane, rule in zip(self.panes, lab.rules, strict=True):
+            pane.show_rule(rule)
+        self.more.setEnabled(len(lab.rules) < MOST_PANES)
+
+    def _fill(self, lab: Lab) -> None:
+        emptied(self._column)
+        families = suiting(lab.control.topology)
+        is_open = isinstance(lab.control.topology, Topology) and bool(lab.control.topology.boundary.any())
+        self.panes = [
+            Pane(k, rule, families, is_open, len(lab.rules) > 1, self.wish) for k, rule in enumerate(lab.rules)
+        ]
+        for pane in self.panes:
+            self._column.addWidget(pane)
+
+    def _take(self, name: str) -> None:
+        if name in shapes.SHAPES:
+            self.wish(bench.take, name)
+
+    def _turn_levels(self, by: int) -> None:
+        if self._session.state.lab is not None:
+            self.wish(bench.set_levels, self._session.state.lab.levels + by)
+
+
+class Pane(QWidget):
+    """The rule of one pane: scheme, its numbers, telling, boundary."""
+
+    def __init__(
+        self,
+        number: int,
+        rule: Rule,
+        families: Sequence[Family],
+        is_open: bool,
+        is_one_of_many: bool,
+        wish: Callable[..., None],
+    ) -> None:
+        super().__init__()
+        self._families = [(f.title, f.name) for f in families]
+        self.family = Choice("Scheme", partial(wish, bench.choose_family, number))
+        self.parameters = [
+            (p, Stepper(p.name, partial(wish, bench.turn_parameter, number, k)))
+            for k, p in enumerate(FAMILIES[rule.family].parameters)
+            if not p.is_vectors
+        ]
+        self.telling = Choice("Told", partial(wish, bench.choose_telling, number))
+        self.boundary = Choice("Boundary", partial(wish, bench.choose_boundary, number))
+        self.boundary.setVisible(is_open)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(GRID // 2)
+        if is_one_of_many:
+            column.addWidget(_numbered(number, partial(wish, bench.drop, number)))
+        for part in (self.family, *(stepper for _, stepper in self.parameters), self.telling, self.boundary):
+            column.addWidget(part)
+
+    def show_rule(self, rule: Rule) -> None:
+        self.family.show_values(self._families, rule.family)
+        values = {p.name: v for p, v in zip(FAMILIES[rule.family].parameters, rule.values, strict=True)}
+        for parameter, stepper in self.parameters:
+            _show_parameter(stepper, parameter, values[parameter.name])
+        self.telling.show_values([(t[:1].upper() + t[1:], t) for t in rule.scheme.tellings], rule.told)
+        self.boundary.show_values(BOUNDARIES, rule.boundary)
+
+
+class Choice(QWidget):
+    """A name above a list to choose from; ``chosen`` is called with what is chosen by hand."""
+
+    def __init__(self, name: str, chosen: Callable[[Any], None]) -> None:
+        super().__init__()
+        self.box = QComboBox()
+        self.box.setAccessibleName(name)
+        self.box.setToolTip(name)
+        self.box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.box.setMinimumContentsLength(8)
+        self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.box.activated.connect(lambda k: chosen(self.box.itemData(k)))
+        self._values: list[tuple[str, Any]] = []
+        row = QVBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        row.addWidget(self.box)
+
+    def show_values(self, values: Sequence[tuple[str, Any]], chosen: Any) -> None:
+        """Offer named values, one of them chosen."""
+        if list(values) != self._values:
+            self._values = list(values)
+            self.box.clear()
+            for name, value in values:
+                self.box.addItem(name, value)
+        self.box.setCurrentIndex(next((k for k, (_, value) in enumerate(values) if value == chosen), -1))
+
+
+def _show_parameter(stepper: Stepper, parameter: Parameter, value: Value) -> None:
+    if isinstance(value, tuple):
+        return
+    stepper.show_value(str(value), is_least=value <= parameter.least, is_most=value >= parameter.most)
+
+
+def _numbered(number: int, drop: Callable[[], None]) -> QWidget:
+    """The pane's number, and a button that takes it away."""
+    close = QToolButton()
+    close.setText("×")
+    close.setToolTip("Take this pane away")
+    close.setAccessibleName(f"Take pane {number + 1} away")
+    close.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+    close.clicked.connect(lambda: drop())
+    found = QWidget()
+    row = QHBoxLayout(found)
+    row.setContentsMargins(0, GRID // 2, 0, 0)
+    row.addWidget(QLabel(f"Pane {number + 1}"), 1)
+    row.addWidget(close)
+    return found
