@@ -134,5 +134,6 @@ def _covered(boxes: Floats, discs: Floats) -> Floats:
 
 def _inside(boxes: Floats, points: Floats) -> Floats:
     """(n,): how many of the points lie in each box."""
-    off = points[None] - boxes[:, None, :2]
-    return np.asarray(((off >= 0) & (off <= boxes[:, None, 2:])).all(axis=2).sum(axis=1), dtype=float)
+    x, y, wide, tall = (boxes[:, k, None] for k in range(4))
+    across, down = points[:, 0] - x, points[:, 1] - y
+    return np.asarray(((across >= 0) & (across <= wide) & (down >= 0) & (down <= tall)).sum(axis=1), dtype=float)
