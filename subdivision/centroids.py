@@ -30,7 +30,7 @@ from subdivision.exact import Exact
 from subdivision.manifold import TopologyError
 from subdivision.operators import Operator, Pick, identity, mix, stack, widened
 from subdivision.sharpness import CREASE, SMOOTH, VertexRules, blend, edge_share, vertex_rules
-from subdivision.stage import Role, Stage, Step
+from subdivision.stage import Role, Stage, Step, grown
 from subdivision.topology import Topology
 from subdivision.weights import Weights, by_count
 
@@ -72,8 +72,8 @@ def quad_stencils(t: Topology, pull: Pull) -> Step:
     roles = np.repeat([Role.MOVED, Role.FACE, Role.EDGE], [V, F, E])
     unmoved = np.repeat([Role.ORIGINAL, Role.FACE, Role.EDGE], [V, F, E])
     return Step((
-        Stage("face points", stack(identity(V), face_centroids(t)), t, _grown(V, F), unmoved[: V + F]),
-        Stage("edge points", stack(identity(V + F), edge_point), t, _grown(V + F, E), unmoved),
+        Stage("face points", stack(identity(V), face_centroids(t)), t, grown(V, F), unmoved[: V + F]),
+        Stage("edge points", stack(identity(V + F), edge_point), t, grown(V + F, E), unmoved),
         _vertex_points(vertex_point, t, V + F + E, roles),
         Stage("connect", identity(V + F + E), refine.quads(t), np.arange(V + F + E), roles),
     ))  # fmt: skip
@@ -91,7 +91,7 @@ def triangle_stencils(t: Topology, beta: Callable[[int], Exact | int]) -> Step:
     roles = np.repeat([Role.MOVED, Role.EDGE], [V, E])
     unmoved = np.repeat([Role.ORIGINAL, Role.EDGE], [V, E])
     return Step((
-        Stage("edge points", stack(identity(V), edge_point), t, _grown(V, E), unmoved),
+        Stage("edge points", stack(identity(V), edge_point), t, grown(V, E), unmoved),
         _vertex_points(vertex_point, t, V + E, roles),
         Stage("connect", identity(V + E), refine.triangles(t), np.arange(V + E), roles),
     ))  # fmt: skip
@@ -110,8 +110,8 @@ def _averaging(
         still,
     )
     return Step((
-        Stage("topology", split, fine, _grown(t.n_vertices, X - t.n_vertices), roles),
-        Stage("centroids", stack(identity(X), centroids), fine, _grown(X, C), np.r_[roles, np.full(C, Role.CENTROID)]),
+        Stage("topology", split, fine, grown(t.n_vertices, X - t.n_vertices), roles),
+        Stage("centroids", stack(identity(X), centroids), fine, grown(X, C), np.r_[roles, np.full(C, Role.CENTROID)]),
         Stage("geometry", moved, fine, np.arange(X), np.full(X, Role.MOVED)),
     ))  # fmt: skip
 
@@ -157,8 +157,3 @@ def _vertex_points(operator: Operator, t: Topology, n: int, roles: Indices) -> S
     V = operator.shape[0]
     rest = Pick(np.arange(V, n), n)
     return Stage("vertex points", stack(widened(operator, n), rest), t, np.arange(n), roles)
-
-
-def _grown(old: int, new: int) -> Indices:
-    """``carries`` of a stage that keeps ``old`` points and brings ``new`` ones."""
-    return np.concatenate([np.arange(old), np.full(new, -1)])

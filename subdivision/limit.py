@@ -115,7 +115,8 @@ def levels_to_settle(scheme: Scheme, topology: Topology) -> int:
     """How many steps until the scheme's limit rules hold."""
     sharpness = np.concatenate([topology.edge_sharpness, topology.vertex_sharpness])
     wearing = ceil(float(sharpness[sharpness < INFINITELY_SHARP].max(initial=0.0)))
-    return max(wearing, int((topology.face_sizes != scheme.made_size(topology)).any()))
+    size = scheme.refinement.size if scheme.refinement else 0
+    return max(wearing, int(size > 0 and (topology.face_sizes != size).any()))
 
 
 def _lengths(vectors: Floats) -> Floats:

@@ -14,10 +14,10 @@ from fractions import Fraction
 import numpy as np
 
 from subdivision.arrays import Floats
-from subdivision.averages import neighbours
+from subdivision.averages import neighbours, vertex_corners
 from subdivision.exact import Exact, Formula, quotient
 from subdivision.fans import Corner, dart_ends, weighed
-from subdivision.operators import Mean, Operator, identity, mix
+from subdivision.operators import Mean, Operator, Pick, identity, mix
 from subdivision.sharpness import blend, vertex_rules
 from subdivision.stage import Role, Stage
 from subdivision.topology import Topology
@@ -37,6 +37,23 @@ def triangle_limit(t: Topology, beta: Callable[[int], Exact | int]) -> Stage:
     away = by_count(lambda n: quotient(8 * n * beta(n), 3 + 8 * n * beta(n)), t.valence)
     smooth = mix(away, neighbours(t), identity(t.n_vertices))
     return _told(t, smooth, lambda n: triangle_dart(n, float(beta(n))))
+
+
+def dual_limit(t: Topology, corners: Callable[[Topology], Operator]) -> Stage:
+    """Every vertex of a closed mesh to the limit of the face it becomes: its centroid, which stays where it is.
+
+    ``corners(t)`` (n_halfedges, n_halfedges) is the rule of the corner points.
+    """
+    around = vertex_corners(t) @ (corners(t) @ Pick(t.origin, t.n_vertices))
+    return vertices_to(t, around)
+
+
+def vertices_to(t: Topology, limits: Operator) -> Stage:
+    """The stage that moves every vertex to its limit; isolated ones stay."""
+    V = t.n_vertices
+    if (t.valence == 0).any():
+        limits = mix(by_value(t.valence > 0), limits, identity(V))
+    return Stage("limit", limits, t, np.arange(V), np.full(V, Role.MOVED))
 
 
 def quad_dart(n: int, w: float) -> Floats:
@@ -84,7 +101,7 @@ def _told(t: Topology, smooth: Operator, dart: Callable[[int], Floats]) -> Stage
         vertex_rules(t), smooth,
         lambda sharp: Fraction(2, 3) * identity(V) + Fraction(1, 3) * neighbours(t, sharp), identity(V),
     )  # fmt: skip
-    return Stage("limit", moved, t, np.arange(V), np.full(V, Role.MOVED))
+    return vertices_to(t, moved)
 
 
 def _fixed(S: Floats) -> Floats:

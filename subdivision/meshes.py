@@ -12,6 +12,13 @@ def refuses_non_meshes(t: Connectivity) -> str:
     return "" if isinstance(t, Topology) else "it is not a polygon mesh (make one of a net with Grid.mesh())"
 
 
+def as_mesh(t: Connectivity) -> Topology:
+    """``t`` itself, if it is a polygon mesh."""
+    if not isinstance(t, Topology):
+        raise TopologyError(f"this scheme subdivides meshes only: {refuses_non_meshes(t)}")
+    return t
+
+
 def refuses_non_quads(t: Connectivity) -> str:
     """Why ``t`` is no quad mesh; empty where it is."""
     return _refuses_other_faces(t, 4, "quadrilateral", "one step of Catmull-Clark makes all faces quads")
@@ -20,6 +27,35 @@ def refuses_non_quads(t: Connectivity) -> str:
 def refuses_non_triangles(t: Connectivity) -> str:
     """Why ``t`` is no triangle mesh; empty where it is."""
     return _refuses_other_faces(t, 3, "triangle", "triangulate the mesh, or use Catmull-Clark")
+
+
+def refuses_sharp(t: Topology) -> str:
+    """Why ``t`` has sharpness inside that a scheme without creases cannot follow; empty where it has none."""
+    creases = np.flatnonzero((t.edge_sharpness > 0) & ~t.boundary)
+    if creases.size:
+        a, b = t.ends[creases[0]]
+        return f"the edge between vertices {a} and {b} is sharp, and it knows no creases; make the edge smooth"
+    pins = np.flatnonzero((t.vertex_sharpness > 0) & ~t.on_boundary)
+    return f"vertex {pins[0]} is sharp, and it knows no corners; make the vertex smooth" if pins.size else ""
+
+
+def refuses_open(t: Topology) -> str:
+    """Why ``t`` has an outline; empty where it is closed."""
+    rim = np.flatnonzero(t.boundary)
+    if rim.size == 0:
+        return ""
+    a, b = t.ends[rim[0]]
+    return f"it ends at the edge between vertices {a} and {b}, and no boundary rule is known; close the mesh"
+
+
+def refuses_curves_at_the_boundary(t: Topology) -> str:
+    """Why the outline of ``t`` is to be a curve, which a dual scheme does not make; empty where it is not."""
+    if (t.edge_sharpness[t.boundary] == 0).all() and (t.vertex_sharpness == 0).all():
+        return ""
+    return (
+        "its outline is to be a curve, and a dual scheme makes none; choose the literal boundary, "
+        "under which the mesh shrinks as an open net does"
+    )
 
 
 def only_quads(t: Connectivity, title: str) -> Topology:

@@ -5,10 +5,29 @@ columns.  A negative twin stays negative, so the boundary takes care of itself.
 Sharpness wears off by one per level along the children of an edge [DKT98]_.
 """
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, columns
 from subdivision.topology import INFINITELY_SHARP, Topology
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """How schemes of one family split a mesh, whatever their weights.
+
+    Attributes
+    ----------
+    size : int
+        How many corners the faces have that it makes; 0 where they differ.
+    faces : (Topology, levels) -> int
+        How many there are after ``levels`` steps, 1 or more, told without making them.
+    """
+
+    size: int
+    faces: Callable[[Topology, int], int]
 
 
 def quads(t: Topology) -> Topology:
@@ -55,6 +74,10 @@ def triangles(t: Topology) -> Topology:
         vertex_sharpness=np.r_[worn(t.vertex_sharpness), np.zeros(E)],
         hidden=np.r_[t.hidden[t.face], t.hidden],
     )
+
+
+QUADS = Refinement(size=4, faces=lambda t, levels: t.n_halfedges * 4 ** (levels - 1))
+TRIANGLES = Refinement(size=3, faces=lambda t, levels: t.n_faces * 4**levels)
 
 
 def worn(sharpness: Floats) -> Floats:

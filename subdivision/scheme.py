@@ -3,10 +3,10 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
+from subdivision.exact import Exact
 from subdivision.manifold import TopologyError
 from subdivision.operators import Operator
+from subdivision.refine import Refinement
 from subdivision.rows import Connectivity
 from subdivision.stage import Stage, Step
 from subdivision.topology import Topology
@@ -30,6 +30,11 @@ class Scheme:
         Why it cannot subdivide a control object; empty where it can.
     tellings : name -> (Connectivity -> Step)
         The first one is the telling for those who do not choose.
+    refinement : Refinement, optional
+        How it splits meshes; left out by schemes of polygons and nets.
+    reach : valence -> number, optional
+        How far a smooth vertex goes to the mean of its ring, if that is all that tells the scheme from
+        the others of its refinement; then ``plan.py`` knows a fast way.
     limit : Connectivity -> Stage, optional
         Points to where they tend to.
     tangents : Topology -> (Operator, Operator), optional
@@ -41,6 +46,8 @@ class Scheme:
     paper: str
     refuses: Callable[[Connectivity], str]
     tellings: Mapping[str, Callable[[Connectivity], Step]]
+    refinement: Refinement | None = None
+    reach: Callable[[int], Exact | int] | None = None
     limit: Callable[[Connectivity], Stage] | None = None
     tangents: Callable[[Topology], tuple[Operator, Operator]] | None = None
 
@@ -62,18 +69,9 @@ class Scheme:
             If the scheme refuses the mesh.
         """
         self.require(topology)
-        if levels == 0:
+        if levels == 0 or self.refinement is None:
             return topology.n_faces
-        sizes, counts = np.unique(topology.face_sizes, return_counts=True)
-        first: int = sum(int(n) * self._of_one_face(int(size)).n_faces for size, n in zip(sizes, counts, strict=True))
-        return first * int(self._of_one_face(self.made_size(topology)).n_faces ** (levels - 1))
-
-    def made_size(self, topology: Topology) -> int:
-        """How many corners the faces have that the scheme makes of a mesh."""
-        return int(self._of_one_face(int(topology.face_sizes[0])).face_sizes[0])
-
-    def _of_one_face(self, size: int) -> Connectivity:
-        return self.step(Topology.from_corners(np.array([size]), np.arange(size))).topology
+        return self.refinement.faces(topology, levels)
 
     def step(self, topology: Connectivity, telling: str | None = None) -> Step:
         """One subdivision step on ``topology``.

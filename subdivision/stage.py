@@ -139,3 +139,8 @@ class Step:
     def influence(self, point: int) -> Floats:
         """(n_new,) float: how much of one old ``point`` every new point holds: a column."""
         return self.matrix[:, [point]].toarray().ravel()
+
+
+def grown(old: int, new: int) -> Indices:
+    """``carries`` of a stage that keeps ``old`` points and brings ``new`` ones."""
+    return np.concatenate([np.arange(old), np.full(new, -1)])

@@ -1,17 +1,22 @@
 """Schemes beyond the lecture: every one beside a known mask, a tensor product, or loops written without the engine."""
 
+from collections.abc import Callable
 from fractions import Fraction
+from math import cos, pi
 
 import numpy as np
 import pytest
+from test_meshes import double_torus
 
-from subdivision import Mesh, Polyline, Scheme, TopologyError, shapes, subdivide
+from subdivision import Boundary, Grid, Mesh, Polyline, Scheme, Topology, TopologyError, shapes, subdivide
 from subdivision.arrays import Floats
 from subdivision.limit import limit_points
 from subdivision.rows import Connectivity
-from subdivision.schemes import lane_riesenfeld
+from subdivision.schemes import ZWART_POWELL, box_spline, lane_riesenfeld, tensor_product
 from subdivision.schemes.chaikin import CHAIKIN
+from subdivision.schemes.doo_sabin import DOO_SABIN, DOO_SABIN_MEAN
 from subdivision.schemes.four_point import Ends, four_point
+from subdivision.schemes.mid_edge import MID_EDGE
 
 POLYGONS = [Polyline(7), Polyline(6, closed=True), Polyline(3, closed=True), Polyline(11)]
 REFLECTED = four_point(ends=Ends.REFLECTED)
@@ -120,3 +125,202 @@ def test_four_points_are_too_few_to_grow_and_a_mesh_is_no_polygon() -> None:
     for scheme in CURVES:
         with pytest.raises(TopologyError, match="not a polygon"):
             scheme.step(shapes.cube().topology)
+
+
+def literal(mesh: Mesh) -> Mesh:
+    return Mesh(mesh.surface.with_boundary(Boundary.LITERAL), mesh.points)
+
+
+def prism(n: int) -> Mesh:
+    """Two n-gons and n quads."""
+    faces = [[*range(n)][::-1], [*range(n, 2 * n)], *([k, (k + 1) % n, n + (k + 1) % n, n + k] for k in range(n))]
+    return Mesh(Topology.from_faces(faces), positions(2 * n))
+
+
+CLOSED: dict[str, Callable[[], Mesh]] = {
+    "cube": shapes.cube, "tetrahedron": shapes.tetrahedron, "prism 5": lambda: prism(5), "prism 7": lambda: prism(7),
+    "torus": shapes.torus, "triangle torus": shapes.triangle_torus, "double torus": double_torus,
+    "bipyramid 8": lambda: shapes.bipyramid(8), "quads of valence 5": lambda: shapes.quad_bipyramid(5),
+    "icosahedron": shapes.icosahedron,
+}  # fmt: skip
+OPEN: dict[str, Callable[[], Mesh]] = {
+    "sheet": shapes.quad_sheet, "triangles": shapes.triangle_sheet, "fan": shapes.quad_fan,
+    "triangle fan": shapes.triangle_fan,
+}  # fmt: skip
+DUAL = [DOO_SABIN, DOO_SABIN_MEAN, MID_EDGE]
+closed = pytest.mark.parametrize("make", CLOSED.values(), ids=CLOSED)
+opened = pytest.mark.parametrize("make", OPEN.values(), ids=OPEN)
+dual = pytest.mark.parametrize("scheme", DUAL, ids=lambda s: s.name)
+corner = pytest.mark.parametrize("scheme", [DOO_SABIN, DOO_SABIN_MEAN], ids=lambda s: s.name)
+
+
+def same_points(a: Floats, b: Floats) -> bool:
+    gaps = np.linalg.norm(a[:, None] - b[None], axis=2)
+    return len(a) == len(b) and gaps.min(axis=0).max() < 1e-12 and gaps.min(axis=1).max() < 1e-12
+
+
+def assert_well_made(t: Topology) -> None:
+    """The half-edges are those that would be found by searching the faces."""
+    built = Topology.from_faces(t.loops(), t.n_vertices)
+    assert np.array_equal(t.twin, built.twin)
+    assert np.array_equal(t.next, built.next)
+    assert np.array_equal(t.face, built.face)
+    assert np.array_equal(t.valence, built.valence)
+    assert t.n_edges == built.n_edges == len(set(t.edge.tolist()))
+    inner = t.twin >= 0
+    assert np.array_equal(t.edge[inner], t.edge[t.twin[inner]])
+
+
+def assert_relabelling_commutes(scheme: Scheme, mesh: Mesh) -> None:
+    """Other numbers, turned loops and faces in another order: the same vertices and faces in the end."""
+    rng = np.random.default_rng(1)
+    t = mesh.surface
+    new = rng.permutation(t.n_vertices)
+    loops = [np.roll(new[loop], rng.integers(9)).tolist() for loop in t.loops()]
+    order = rng.permutation(len(loops))
+    other = Topology.from_faces([loops[k] for k in order], t.n_vertices)
+    literal = not (t.edge_sharpness[t.boundary] > 0).any()
+    other = other.with_boundary(Boundary.LITERAL) if literal else other
+    points = np.empty_like(mesh.points)
+    points[new] = mesh.points
+    ours, theirs = subdivide(mesh, scheme, 2), subdivide(Mesh(other, points), scheme, 2)
+    assert same_points(ours.points, theirs.points)
+    assert same_points(*(np.array([m.points[loop].mean(axis=0) for loop in m.surface.loops()]) for m in (ours, theirs)))
+
+
+def spread(mesh: Mesh) -> Mesh:
+    """The same mesh at random places, no two of them alike."""
+    return Mesh(mesh.topology, positions(mesh.topology.n_vertices))
+
+
+@dual
+@closed
+def test_every_telling_of_a_dual_scheme_is_the_same_matrix(scheme: Scheme, make: Callable[[], Mesh]) -> None:
+    assert_all_readings_agree(scheme, make().topology)
+    assert_all_readings_agree(scheme, subdivide(make(), scheme, 1).topology)
+    assert dense(scheme, make().topology).min() >= -1e-15
+    assert_relabelling_commutes(scheme, spread(make()))
+
+
+@corner
+@opened
+def test_doo_sabin_of_an_open_mesh_tells_the_same_too(scheme: Scheme, make: Callable[[], Mesh]) -> None:
+    mesh = literal(make())
+    assert_all_readings_agree(scheme, mesh.topology)
+    assert_relabelling_commutes(scheme, spread(mesh))
+    fine = mesh.surface
+    for level in range(4):
+        assert scheme.faces_after(mesh.surface, level) == fine.n_faces
+        assert fine.euler == 1
+        fine = scheme.step(fine).topology
+        assert_well_made(fine)
+
+
+@closed
+def test_doo_sabin_counts_and_makes_a_face_of_every_face_edge_and_vertex(make: Callable[[], Mesh]) -> None:
+    t = make().surface
+    for level in range(4):
+        V, E, F, sizes, valence = t.n_vertices, t.n_edges, t.n_faces, t.face_sizes, t.valence
+        assert DOO_SABIN.faces_after(make().surface, level) == F
+        t = DOO_SABIN.step(t).topology
+        assert (t.n_vertices, t.n_edges, t.n_faces) == (2 * E, 4 * E, V + E + F)
+        assert t.euler == make().surface.euler
+        assert sorted(t.face_sizes) == sorted([*sizes, *[4] * E, *valence])
+        assert set(t.valence) == {4}
+        assert_well_made(t)
+
+
+@closed
+def test_mid_edge_counts_and_makes_a_face_of_every_face_and_vertex(make: Callable[[], Mesh]) -> None:
+    t = make().surface
+    for level in range(5):
+        V, E, F, sizes, valence = t.n_vertices, t.n_edges, t.n_faces, t.face_sizes, t.valence
+        assert MID_EDGE.faces_after(make().surface, level) == F
+        t = MID_EDGE.step(t).topology
+        assert (t.n_vertices, t.n_edges, t.n_faces) == (E, 2 * E, V + F)
+        assert t.euler == make().surface.euler
+        assert sorted(t.face_sizes) == sorted([*sizes, *valence])
+        assert set(t.valence) == {4}
+        assert_well_made(t)
+
+
+@closed
+def test_doo_sabin_corners_weigh_the_published_cosines(make: Callable[[], Mesh]) -> None:
+    t = make().surface
+    rows = []
+    for loop in t.loops():
+        n = len(loop)
+        for i in range(n):
+            row = np.zeros(t.n_vertices)
+            for j in range(n):
+                row[loop[(i + j) % n]] = (n + 5) / (4 * n) if j == 0 else (3 + 2 * cos(2 * pi * j / n)) / (4 * n)
+            rows.append(row)
+    assert np.abs(dense(DOO_SABIN, t) - np.array(rows)).max() < 1e-12
+    assert str(DOO_SABIN.step(shapes.cube().topology).stencil(0)).startswith("9/16 v")
+
+
+def test_the_mean_of_four_agrees_in_quads_and_in_no_other_face() -> None:
+    for name, make in CLOSED.items():
+        t = make().surface
+        off = np.abs(dense(DOO_SABIN, t) - dense(DOO_SABIN_MEAN, t)).max(axis=1)
+        assert np.array_equal(off < 1e-12, t.face_sizes[t.face] == 4), name
+    t = prism(5).surface
+    P = prism(5).points
+    expected = [
+        (P[a] + (P[a] + P[b]) / 2 + (P[a] + P[c]) / 2 + P[loop].mean(axis=0)) / 4
+        for loop in t.loops() for c, a, b in zip([loop[-1], *loop], loop, [*loop[1:], loop[0]], strict=False)
+    ]  # fmt: skip
+    assert np.abs(DOO_SABIN_MEAN.step(t).apply(P) - expected).max() < 1e-12
+
+
+@corner
+@pytest.mark.parametrize("net", [Grid(5, 4, True, True), Grid(5, 6), Grid(6, 5, wrap_s=True)], ids=str)
+def test_doo_sabin_on_a_net_is_the_biquadratic_b_spline(scheme: Scheme, net: Grid) -> None:
+    mesh = literal(Mesh(net.mesh(), positions(net.n_vertices)))
+    for level in (1, 2):
+        ours = subdivide(mesh, scheme, level)
+        assert same_points(ours.points, subdivide(Mesh(net, mesh.points), tensor_product(2, 2), level).points)
+
+
+def test_two_mid_edge_steps_on_a_net_are_one_of_the_box_spline_of_four_directions() -> None:
+    net = Grid(5, 6, True, True)
+    mesh = Mesh(net, positions(30))
+    box = subdivide(mesh, box_spline(ZWART_POWELL), 2).points
+    assert same_points(subdivide(Mesh(net.mesh(), mesh.points), MID_EDGE, 4).points, box)
+
+
+@closed
+@dual
+def test_faces_of_a_dual_scheme_keep_their_centroids_and_vertices_tend_to_the_first_of_theirs(
+    scheme: Scheme, make: Callable[[], Mesh]
+) -> None:
+    mesh = spread(make())
+    t, fine = mesh.surface, subdivide(mesh, scheme, 1)
+    before, after = (np.array([m.points[loop].mean(axis=0) for loop in m.surface.loops()]) for m in (mesh, fine))
+    assert np.abs(after[: t.n_faces] - before).max() < 1e-12
+    limits = limit_points(mesh, scheme)
+    assert np.abs(limits - after[-t.n_vertices :]).max() < 1e-12
+    finer = subdivide(mesh, scheme, 3)
+    last = np.array([finer.points[loop].mean(axis=0) for loop in finer.surface.loops()])
+    assert np.linalg.norm(last[:, None] - limits[None], axis=2).min(axis=0).max() < 1e-12
+
+
+def test_limits_of_dual_schemes_are_those_of_their_splines() -> None:
+    net = Grid(5, 4, True, True)
+    mesh = Mesh(net, positions(20))
+    for scheme, spline in ((DOO_SABIN, tensor_product(2, 2)), (MID_EDGE, box_spline(ZWART_POWELL))):
+        ours = limit_points(Mesh(net.mesh(), mesh.points), scheme)
+        assert same_points(ours, limit_points(mesh, spline))
+
+
+@dual
+def test_a_dual_scheme_says_what_it_does_not_do(scheme: Scheme) -> None:
+    word = "close the mesh" if scheme is MID_EDGE else "literal boundary"
+    with pytest.raises(TopologyError, match=word):
+        scheme.step(shapes.quad_sheet().topology)
+    with pytest.raises(TopologyError, match="knows no creases"):
+        scheme.step(Topology.from_faces(shapes.cube().surface.loops(), creases={(0, 1): 2.0}))
+    with pytest.raises(TopologyError, match="knows no corners"):
+        scheme.step(Topology.from_faces(shapes.cube().surface.loops(), corners={0: 2.0}))
+    with pytest.raises(TopologyError, match="not a polygon mesh"):
+        scheme.step(Grid(4, 4))

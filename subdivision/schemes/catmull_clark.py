@@ -7,7 +7,7 @@ Any polygon may be a control face; after one step all faces are quads.
 from fractions import Fraction
 from functools import partial
 
-from subdivision import meshes
+from subdivision import meshes, refine
 from subdivision.centroids import quad_averaging, quad_stencils
 from subdivision.limit_rules import quad_limit
 from subdivision.limit_tangents import quad_tangents
@@ -35,6 +35,8 @@ CATMULL_CLARK = Scheme(
         "stencils": partial(quad_stencils, pull=pull),
         "centroid averaging": by_averaging,
     },
+    refinement=refine.QUADS,
+    reach=lambda n: Fraction(2, n),
     limit=partial(quad_limit, pull=pull),
     tangents=partial(quad_tangents, pull=pull),
 )

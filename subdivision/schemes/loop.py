@@ -8,7 +8,7 @@ centroids, which is all the way at the regular valence 6.
 from fractions import Fraction
 from functools import partial
 
-from subdivision import meshes
+from subdivision import meshes, refine
 from subdivision.centroids import triangle_averaging, triangle_stencils
 from subdivision.exact import Exact, cosine
 from subdivision.limit_rules import triangle_limit
@@ -45,6 +45,8 @@ LOOP = Scheme(
         "stencils": partial(triangle_stencils, beta=loop_beta),
         "centroid averaging": partial(triangle_averaging, pull=loop_pull),
     },
+    refinement=refine.TRIANGLES,
+    reach=lambda n: n * loop_beta(n),
     limit=partial(triangle_limit, beta=loop_beta),
     tangents=partial(triangle_tangents, beta=loop_beta),
 )
@@ -58,6 +60,8 @@ LOOP_WARREN = Scheme(
         "stencils": partial(triangle_stencils, beta=warren_beta),
         "centroid averaging": partial(triangle_averaging, pull=warren_pull),
     },
+    refinement=refine.TRIANGLES,
+    reach=lambda n: n * warren_beta(n),
     limit=partial(triangle_limit, beta=warren_beta),
     tangents=partial(triangle_tangents, beta=warren_beta),
 )

@@ -7,7 +7,7 @@ the centroids around it [WW02]_.  In stencils: face 1/4; edge 6/16, 1/16; vertex
 
 from functools import partial
 
-from subdivision import meshes
+from subdivision import meshes, refine
 from subdivision.centroids import quad_averaging, quad_stencils
 from subdivision.limit_rules import quad_limit
 from subdivision.limit_tangents import quad_tangents
@@ -28,6 +28,8 @@ QUAD_CENTROID = Scheme(
         "centroid averaging": partial(quad_averaging, pull=pull),
         "stencils": partial(quad_stencils, pull=pull),
     },
+    refinement=refine.QUADS,
+    reach=lambda n: Fraction(1, 2),
     limit=partial(quad_limit, pull=pull),
     tangents=partial(quad_tangents, pull=pull),
 )

@@ -9,7 +9,7 @@ move every vertex to the centroid of its own.  In stencils: edge 3/8, 3/8, 1/8, 
 from fractions import Fraction
 from functools import partial
 
-from subdivision import meshes
+from subdivision import meshes, refine
 from subdivision.centroids import triangle_averaging, triangle_stencils
 from subdivision.limit_rules import triangle_limit
 from subdivision.limit_tangents import triangle_tangents
@@ -35,6 +35,8 @@ TRIANGLE_CENTROID = Scheme(
         "centroid averaging": partial(triangle_averaging, pull=pull),
         "stencils": partial(triangle_stencils, beta=beta),
     },
+    refinement=refine.TRIANGLES,
+    reach=lambda n: n * beta(n),
     limit=partial(triangle_limit, beta=beta),
     tangents=partial(triangle_tangents, beta=beta),
 )

@@ -1,0 +1,65 @@
+"""What several lessons measure on screen, and how they leave helpers out."""
+
+from dataclasses import replace
+from itertools import chain
+
+import numpy as np
+
+from lessons.script import Reading
+from subdivision import Mesh, Stage, Trace
+from subdivision.measure import angle_sum, counts, edges_apart, largest_distance, largest_gap
+
+
+def difference(a: Mesh, b: Mesh) -> str:
+    """The distance between points of the same number, where it is largest; rounding errors below 1e-12 are 0."""
+    return f"largest difference {_rounded(largest_distance(a, b))}"
+
+
+def gap(a: Mesh, b: Mesh) -> str:
+    """How far the points of ``b`` are from the nearest of ``a``, where they are farthest: for other numberings."""
+    return f"largest difference {_rounded(largest_gap(b.points, a.points))}"
+
+
+def counted(mesh: Mesh) -> str:
+    """Vertices, edges, faces and their alternating sum."""
+    n = counts(mesh.topology)
+    return f"V {n.vertices}   E {n.edges}   F {n.faces}   χ {n.euler}"
+
+
+def angles_at(vertex: int) -> Reading:
+    """The angle sum at a vertex."""
+    return lambda mesh: f"angle sum {angle_sum(mesh, vertex):.2f}°"
+
+
+def isolation(mesh: Mesh) -> str:
+    """How many extraordinary vertices there are, and how many edges the nearest two are apart."""
+    return f"{mesh.surface.extraordinary.sum()} extraordinary, {nearest(mesh)} edges apart"
+
+
+def nearest(mesh: Mesh) -> int:
+    """The least number of edges between two extraordinary vertices."""
+    special = np.flatnonzero(mesh.surface.extraordinary)
+    ways = edges_apart(mesh.surface, special)
+    return int(ways[~np.eye(len(special), dtype=bool)].min())
+
+
+def same_rows(a: Trace, b: Trace) -> bool:
+    """Whether all points of two traces have the same weights, as exact fractions."""
+    n = a.stages[-1].n_points
+    return n == b.stages[-1].n_points and all(a.whole.stencil(k) == b.whole.stencil(k) for k in range(n))
+
+
+def without_helpers(told: Trace) -> Trace:
+    """Centroids and geometry of every level as one stage, so that a level has two."""
+    steps = [told.step(level).stages for level in range(told.levels[-1] + 1)]
+    stages = list(chain.from_iterable((topology, _joined(helpers, geometry)) for topology, helpers, geometry in steps))
+    return replace(told, stages=tuple(stages), levels=tuple(k // 2 for k in range(len(stages))))
+
+
+def _joined(helpers: Stage, geometry: Stage) -> Stage:
+    """The helpers made and used at once; those before them keep their numbers."""
+    return replace(geometry, operator=geometry.operator @ helpers.operator)
+
+
+def _rounded(distance: float) -> str:
+    return f"{round(distance, 12):g}"
