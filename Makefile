@@ -1,4 +1,4 @@
-# make run   opens the app; where there is no screen, draws every lecture figure into figures/
+# make run   opens the app; where there is no screen, draws every lecture figure into figures/, with an index.html
 # make test  checks style and types, then runs all the tests, on a virtual screen where there is none
 # Both first install what is missing (.ci/setup); once that is done they need no network.
 
@@ -21,8 +21,9 @@ test:
 
 pictures: # the README's, drawn again by the program
 	@.ci/setup run
-	@.venv/bin/python -m app figures 5 14 --steps --out build/pictures --size 1440x810
 	@mkdir -p assets/pictures
+	@.venv/bin/python -m app figures --out build/pictures/lecture --format png --size 960x540 --sheet assets/pictures/gallery.png
+	@.venv/bin/python -m app figures 5 14 --steps --out build/pictures --format png --size 1440x810
 	@cp build/pictures/figure_05_quadruple_then_average-03.png build/pictures/figure_14_cube-05.png assets/pictures
 
 clean:
