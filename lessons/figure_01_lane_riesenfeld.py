@@ -48,7 +48,8 @@ def figure_01_lane_riesenfeld(degree: int = 3) -> Iterator[Beat]:
                                 notes=f"{n} points become {last.n_points}. A polygon grows from step to step only if "
                                 "it has more points than the degree; this one has too few to be subdivided for ever.",
                                 claim=len(told.stages) == degree + 1))
-    yield with_diagram(show(told, last, f"{n} points become {last.n_points}: every average takes one away.",
+    yield with_diagram(show(told, last, "Doubled, less one for every average: "
+                            f"{n} points become {last.n_points}.",
                             formula=r"$N \rightarrow 2N - n$",
                             notes="The number of polynomial pieces, N - n, doubles exactly.",
                             claim=last.n_points == 2 * n - degree and last.n_points - degree == 2 * (n - degree)))

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 
-from lessons.script import Beat, Kind, Look, View, before_and_after, lesson, play, show, side_by_side, with_diagram
+from lessons.script import Beat, Kind, Look, View, beside, lesson, play, show, side_by_side, with_diagram
 from subdivision import shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import tensor_product
 
-LOOK = Look(azimuth=-62.0, elevation=48.0)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
 
 
 @lesson("Figure 3  Split in t", section="2.1 Split and average",
@@ -27,11 +27,11 @@ def figure_03_t_split() -> Iterator[Beat]:
                             notes="In space there is nothing to see: pairs of points lie on top of each other. The "
                             "diagram shows them apart. Ask what the next average will do to such a pair.",
                             claim=not split_t.moves and (source[:, ::2] == source[:, 1::2]).all()))
-    yield before_and_after(show(told, split_t, "Row by row: each one of Figure 2, twice. Three rows become six.",
-                                look=LOOK, stencil=told.upto(3).stencil(int(array.numbers[1, 2])), span=3,
-                                notes="A point and its copy are made of the same control points with the same weights.",
-                                claim=array.shape == (5, 6)),
-                           average_s, "Figure 2", "Figure 3")
+    yield beside(show(told, split_t, "Row by row: each one of Figure 2, twice. Three rows become six.", look=LOOK,
+                      notes="A point and its copy are made of the same control points with the same weights.",
+                      claim=array.shape == (5, 6)),
+                 View(told, 2, 2, Kind.DIAGRAM, "Figure 2"),
+                 View(told, 3, 3, Kind.DIAGRAM, "Figure 3", told.upto(3).stencil(int(array.numbers[1, 2])), 3))
     yield side_by_side("Figure 5 gets the same array another way: quadruple, then average in s.",
                        View(told, 3, 3, Kind.DIAGRAM, "split, average, split"),
                        View(other, 2, 2, Kind.DIAGRAM, "quadruple, average"),

@@ -7,7 +7,7 @@ from subdivision import Stencil, shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import THREE_DIRECTION_LINEAR, box_spline
 
-LOOK = Look(azimuth=-62.0, elevation=52.0)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
 PASSES = ((1, 1), (1, 0), (0, 1), (1, 1), (1, 0), (0, 1))
 """Each vector twice, in the order that passes Figure 6 on the way."""
 
@@ -22,7 +22,8 @@ def figure_07_three_direction_quartic() -> Iterator[Beat]:
     _, linear, along_s, along_t, diagonally = told.stages
     figure_6 = trace(box_spline(THREE_DIRECTION_LINEAR), net).whole
     rows = [told.whole.stencil(i) for i in range(diagonally.n_points)]
-    vertex, edge = (next(r for r in rows if sixteenths(r) == kind) for kind in (VERTEX, EDGE))
+    vertices, edges = ([r for r in rows if sixteenths(r) == kind] for kind in (VERTEX, EDGE))
+    vertex, edge = vertices[0], edges[len(edges) // 2]
 
     yield with_diagram(show(told, linear, "The array of Figure 6: quadrupled, then averaged along (1,1).", look=LOOK,
                             formula=r"$V = \{(1,0),\ (0,1),\ (1,1)\} \times 2$",

@@ -26,13 +26,16 @@ from subdivision.stage import Stencil
 WIDE, TALL, FLAT = 0.94, 0.84, 0.72
 """Width of a box, its height in an array, and in a pyramid, where strokes need room: in cells."""
 
-SHAPE_OF_ROWS, SHAPE_OF_ARRAYS = (0.8, 1.8), (0.9, 1.7)
+SHAPE_OF_ROWS, SHAPE_OF_ARRAYS = (0.8, 1.8), (0.9, 2.2)
 """Least and most width to height of the cells of a pyramid, and of an array."""
+
+LARGEST = 122.0
+"""Height of a cell of an array, at most, in logical points."""
 
 TINT = 0.24
 """How much of a role's colour fills its box."""
 
-DIM = 0.4
+DIM = 0.5
 """How bright the ancestors further back than the parents are."""
 
 LINE, GLOW = 2.0, 4.5
@@ -113,7 +116,7 @@ def row_texts(stencil: Stencil, below: int) -> tuple[str, ...]:
     terms = _sorted(stencil, below)
     sums = [_summed(_parts(terms, n), _point) for n in (1, 2, 3)]
     counts = [_counted(_parts(terms, n)) for n in (1, 2, 3)]
-    return tuple(dict.fromkeys((*sums, *counts)))
+    return *sums, *counts
 
 
 def block_texts(stencil: Stencil, below: int, grid: Grid) -> tuple[str, ...]:
@@ -121,9 +124,11 @@ def block_texts(stencil: Stencil, below: int, grid: Grid) -> tuple[str, ...]:
     terms = _sorted(stencil, below)
     across = sorted(terms, key=lambda term: (term[0] % grid.n_t, term[0]))
     lines = [[term for term in across if term[0] % grid.n_t == j] for j in sorted({p % grid.n_t for p, _ in across})]
+    broken = [[term] for term in across] if len(lines) == 1 else lines
     different = sorted({count for _, count in terms}, key=float, reverse=True)
     tersest = " ".join(map(_spelled, different))
-    return tuple(dict.fromkeys((_summed(lines, _named(grid)), _table(dict(terms), grid), tersest)))
+    sums = [_summed(each, _named(grid)) for each in (lines, broken)]
+    return *sums, _table(dict(terms), grid), tersest
 
 
 Terms: TypeAlias = Sequence[tuple[int, Fraction | float]]
@@ -158,7 +163,7 @@ def _table(counts: Mapping[int, Fraction | float], grid: Grid) -> str:
     lines = sorted({p % grid.n_t for p in counts}, reverse=True)
     words = [[_spelled(counts[p]) if (p := i * grid.n_t + j) in counts else NONE for i in columns] for j in lines]
     widths = [max(len(line[k]) for line in words) for k in range(len(columns))]
-    return "\n".join(" ".join(w.rjust(n, BLANK) for w, n in zip(line, widths, strict=True)) for line in words)
+    return "\n".join(BLANK.join(w.rjust(n, BLANK) for w, n in zip(line, widths, strict=True)) for line in words)
 
 
 def _spelled(count: Fraction | float) -> str:
@@ -235,7 +240,7 @@ def _array(told: _Told, at: float) -> Diagram:
     w, h = ((1 - t) * before + t * after for before, after in zip(old, new, strict=True))
     below = rows(stages)[1] if at else 1
     extent = (-w / 2 - 0.05, -h / 2 - 0.05, w / 2 + 0.05, h / 2 + 0.45)
-    return Diagram(extent, tuple(boxes), (), (_compass(h, below, told.theme),), shape=SHAPE_OF_ARRAYS)
+    return Diagram(extent, tuple(boxes), (), (_compass(h, below, told.theme),), (), LARGEST, SHAPE_OF_ARRAYS)
 
 
 def _compass(height: float, below: int, theme: Theme) -> Note:
