@@ -102,8 +102,8 @@ def _card(lesson: Lesson, drawn: Drawn) -> str:
         f'<p class="turned">{escape(turned)}</p>' if turned else "",
         f"<p>{_words(said(state, state.now))}</p>",
         _formula(state.now.formula),
-        "" if drawn.has_steps else _aside("Notes", [beat.notes for beat in lesson.beats]),
-        _aside("Not in the lecture", [lesson.ours]),
+        _aside("Not in the lecture", lesson.ours),
+        "" if drawn.has_steps else _notes(lesson, places),
         "</div>",
         "".join(_steps(state, places, drawn)) if drawn.has_steps else "",
         "</article>",
@@ -117,8 +117,8 @@ def _steps(state: State, places: Sequence[Stop], drawn: Drawn) -> Iterator[str]:
     for k, stop in enumerate(places, 1):
         here = at_stop(state, stop)
         ends = k == len(places) or places[k].beat != stop.beat
-        yield f"<li>\n{_picture(here, drawn, k)}\n<p><span>{k}</span> {_words(said(here, here.now))}</p>\n"
-        yield f"{_formula(here.now.formula)}{_aside('Notes', [here.now.notes] if ends else [])}</li>\n"
+        yield f"<li>\n{_picture(here, drawn, k)}\n<p>{_numbered(k, said(here, here.now))}</p>\n"
+        yield f"{_formula(here.now.formula)}{_aside('Notes', here.now.notes if ends else '')}</li>\n"
     yield "</ol>"
 
 
@@ -133,9 +133,19 @@ def _picture(state: State, drawn: Drawn, step: int) -> str:
     )
 
 
-def _aside(name: str, texts: Sequence[str]) -> str:
-    told = " ".join(_words(text) for text in texts if text)
-    return f'<p class="aside"><b>{name}</b> {told}</p>' if told else ""
+def _notes(lesson: Lesson, places: Sequence[Stop]) -> str:
+    """The lecturer's notes, to be unfolded, each with the number of its step."""
+    last = {stop.beat: k for k, stop in enumerate(places, 1)}
+    told = [f"<p>{_numbered(last[b], beat.notes)}</p>" for b, beat in enumerate(lesson.beats) if beat.notes]
+    return f"<details>\n<summary>Notes</summary>\n{''.join(told)}\n</details>" if told else ""
+
+
+def _numbered(step: int, text: str) -> str:
+    return f"<span>{step}</span> {_words(text)}"
+
+
+def _aside(name: str, text: str) -> str:
+    return f'<p class="aside"><b>{name}</b> {_words(text)}</p>' if text else ""
 
 
 def _formula(text: str) -> str:
@@ -265,14 +275,15 @@ article>a,li>a{display:block}
 img{display:block;width:100%%;height:auto;background:%(plate)s;border:1px solid var(--faint);border-radius:.5rem}
 a:hover img,a:focus-visible img{border-color:var(--accent)}
 h3{margin:.8rem 0 .2rem;font-size:1.1rem;line-height:1.3}
-h3 span,li span{margin-right:.35em;color:var(--muted);font-weight:500}
+h3 span,p span{margin-right:.35em;color:var(--muted);font-weight:500}
 li p{margin-top:.5rem}
 p{margin:.2rem 0;overflow-wrap:anywhere}
 .turned{color:var(--muted);font-size:.875rem}
 .formula{margin:.6rem 0;font-size:1.1rem;overflow-x:auto}
 .math{fill:currentColor;overflow:visible}
-.aside{margin-top:.5rem;color:var(--muted);font-size:.9375rem}
-.aside b{font-weight:600;color:var(--ink)}
+.aside,details{margin-top:.5rem;color:var(--muted);font-size:.9375rem}
+.aside b,summary{font-weight:600;color:var(--ink)}
+summary{cursor:pointer}
 .steps .sheet{grid-template-columns:1fr}
 @media (min-width:60rem){.steps article{display:grid;grid-template-columns:3fr 2fr;column-gap:1.8rem}
 .steps ol{grid-column:1/-1}}
@@ -282,6 +293,7 @@ li{min-width:0;break-inside:avoid;font-size:.9375rem}
 @media print{:root{%(light)s;--background:#fff;color-scheme:light}
 body{padding:0;max-width:none;font-size:9pt}
 nav{display:none}
+details::details-content{content-visibility:visible}
 h2{margin-top:1.2rem;break-after:avoid}
 .sheet{grid-template-columns:1fr 1fr;gap:1rem}
 ol{grid-template-columns:repeat(3,1fr)}}
