@@ -17,6 +17,7 @@ from subdivision.schemes.chaikin import CHAIKIN
 from subdivision.schemes.doo_sabin import DOO_SABIN, DOO_SABIN_MEAN
 from subdivision.schemes.four_point import Ends, four_point
 from subdivision.schemes.mid_edge import MID_EDGE
+from subdivision.schemes.sqrt3 import SQRT3
 
 POLYGONS = [Polyline(7), Polyline(6, closed=True), Polyline(3, closed=True), Polyline(11)]
 REFLECTED = four_point(ends=Ends.REFLECTED)
@@ -324,3 +325,91 @@ def test_a_dual_scheme_says_what_it_does_not_do(scheme: Scheme) -> None:
         scheme.step(Topology.from_faces(shapes.cube().surface.loops(), corners={0: 2.0}))
     with pytest.raises(TopologyError, match="not a polygon mesh"):
         scheme.step(Grid(4, 4))
+
+
+TRIANGULAR = {name: make for name, make in CLOSED.items() if make().surface.is_triangular}
+triangular = pytest.mark.parametrize("make", TRIANGULAR.values(), ids=TRIANGULAR)
+
+
+@triangular
+def test_both_tellings_of_sqrt3_are_the_same_matrix_of_no_negative_weight(make: Callable[[], Mesh]) -> None:
+    assert_all_readings_agree(SQRT3, make().topology)
+    assert_all_readings_agree(SQRT3, subdivide(make(), SQRT3, 1).topology)
+    assert dense(SQRT3, make().topology).min() >= -1e-15
+    assert_relabelling_commutes(SQRT3, spread(make()))
+
+
+@triangular
+def test_sqrt3_is_its_loop_over_vertices_and_faces(make: Callable[[], Mesh]) -> None:
+    t, P = make().surface, np.eye(make().surface.n_vertices)
+    rows = []
+    for v in range(t.n_vertices):
+        ring = sorted({w for loop in t.loops() if v in loop for w in loop} - {v})
+        a = (4 - 2 * cos(2 * pi / len(ring))) / 9
+        rows.append((1 - a) * P[v] + a * P[ring].mean(axis=0))
+    rows += [P[loop].mean(axis=0) for loop in t.loops()]
+    assert np.abs(dense(SQRT3, t) - np.array(rows)).max() < 1e-12
+
+
+@triangular
+def test_sqrt3_makes_three_triangles_of_each_and_its_vertices_keep_their_valence(make: Callable[[], Mesh]) -> None:
+    t = make().surface
+    for level in range(4):
+        V, E, F, valence = t.n_vertices, t.n_edges, t.n_faces, t.valence
+        assert SQRT3.faces_after(make().surface, level) == F
+        for stage in SQRT3.step(t).stages:
+            assert isinstance(stage.topology, Topology)
+            assert_well_made(stage.topology)
+            assert (stage.topology.n_edges, stage.topology.n_faces) == (3 * E, 3 * F)
+        t = SQRT3.step(t).topology
+        assert t.n_vertices == V + F
+        assert np.array_equal(t.valence, np.r_[valence, np.full(F, 6)])
+
+
+@triangular
+def test_after_two_sqrt3_steps_every_old_edge_is_cut_in_three(make: Callable[[], Mesh]) -> None:
+    t = make().surface
+    fine = subdivide(make(), SQRT3, 2).surface
+    neighbour = [set(fine.ends[(fine.ends == v).any(axis=1)].ravel().tolist()) - {v} for v in range(fine.n_vertices)]
+    for a, b in t.ends.tolist():
+        assert any(b in neighbour[w] for v in neighbour[a] for w in neighbour[v] - neighbour[a] - {a})
+        assert b not in set().union(*(neighbour[v] for v in neighbour[a]))
+    assert fine.n_faces == 9 * t.n_faces
+
+
+def test_two_sqrt3_steps_on_a_regular_mesh_refine_in_three_and_keep_planes() -> None:
+    n, m = 9, 8
+    step = SQRT3.step(Grid(n, m, True, True, diagonal=True).mesh())
+    matrix = SQRT3.step(step.topology).matrix.toarray() @ step.matrix.toarray()
+    assert centres(matrix, n, m, 3) == {(i, j) for i in range(3 * n) for j in range(3 * m)}
+
+
+def centres(rows: Floats, n: int, m: int, finer: int) -> set[tuple[int, ...]]:
+    """Where each row of a scheme on the (n, m) torus lies, by linear functions, in steps of 1/finer; all different."""
+    lattice = np.stack(np.divmod(np.arange(n * m), m), axis=1)
+    found = set()
+    for row in rows:
+        anchor = lattice[row.argmax()]
+        away = (lattice - anchor + (n // 2, m // 2)) % (n, m) - (n // 2, m // 2)
+        centre = finer * (anchor + row @ away)
+        assert np.abs(centre - np.round(centre)).max() < 1e-12
+        found.add(tuple((np.round(centre).astype(int) % (finer * n, finer * m)).tolist()))
+    assert len(found) == len(rows)
+    return found
+
+
+@triangular
+def test_sqrt3_vertices_tend_to_their_limits(make: Callable[[], Mesh]) -> None:
+    mesh = spread(make())
+    limits = limit_points(mesh, SQRT3)
+    assert np.abs(limit_points(subdivide(mesh, SQRT3, 2), SQRT3)[: len(limits)] - limits).max() < 1e-12
+    assert np.abs(subdivide(mesh, SQRT3, 6).points[: len(limits)] - limits).max() < 0.05
+
+
+def test_sqrt3_says_what_it_does_not_do() -> None:
+    with pytest.raises(TopologyError, match="every second step only; close the mesh, or use Loop"):
+        SQRT3.step(shapes.triangle_sheet().topology)
+    with pytest.raises(TopologyError, match="knows no creases"):
+        SQRT3.step(Topology.from_faces(shapes.tetrahedron().surface.loops(), creases={(0, 2): 2.0}))
+    with pytest.raises(TopologyError, match="must be a triangle"):
+        SQRT3.step(shapes.cube().topology)
