@@ -290,8 +290,8 @@ summary{cursor:pointer}
 ol{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%%,18rem),1fr));gap:1.4rem 1.2rem;margin:1.2rem 0;
 padding:0;list-style:none}
 li{min-width:0;break-inside:avoid;font-size:.9375rem}
-@media print{:root{%(light)s;--background:#fff;color-scheme:light}
-body{padding:0;max-width:none;font-size:9pt}
+@media print{:root{%(light)s;--background:#fff;color-scheme:light;font-size:8pt}
+body{padding:0;max-width:none}
 nav{display:none}
 details::details-content{content-visibility:visible}
 h2{margin-top:1.2rem;break-after:avoid}
