@@ -196,7 +196,7 @@ def test_a_live_camera_moves_the_labels():
 
 
 def test_boxes_of_a_diagram_stand_in_their_pane_with_their_words_inside():
-    boxes = tuple(Box(k, j, f"$P_{k}$", WHITE, BLACK, BLACK) for k in range(4) for j in range(3))
+    boxes = tuple(Box(k, j, (f"$P_{k}$",), WHITE, BLACK, BLACK) for k in range(4) for j in range(3))
     found = overlay(of(Scene(AHEAD), Diagram((-0.5, -0.5, 3.5, 2.5), boxes)), 1280, 720)
     plates, texts = ([p for p in found if isinstance(p, kind)] for kind in (Plate, Text))
     assert len(plates) == len(texts) == 12
