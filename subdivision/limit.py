@@ -19,7 +19,7 @@ from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Stage, Stencil, Step
 from subdivision.topology import INFINITELY_SHARP, Topology
-from subdivision.trace import Mesh
+from subdivision.trace import Mesh, Trace
 
 MOST_FACES = 2_000_000
 """Refining stops here: beyond, semi-sharp creases would cost gigabytes."""
@@ -62,6 +62,13 @@ def limit_mesh(mesh: Mesh, scheme: Scheme) -> Mesh:
     """``mesh`` pushed onto the limit surface; an open net loses the rim that has no limits."""
     stage = limit_stage(scheme, mesh.topology)
     return Mesh(stage.topology, stage.operator.apply(mesh.points))
+
+
+def to_limit(told: Trace) -> Trace:
+    """The trace with one stage more, which takes every point to its limit."""
+    stage = limit_stage(told.scheme, told.topology_at(len(told.stages)))
+    level = told.levels[-1] + 1 if told.levels else 0
+    return replace(told, stages=(*told.stages, stage), levels=(*told.levels, level))
 
 
 def limit_stencil(scheme: Scheme, topology: Connectivity, vertex: int) -> Stencil:

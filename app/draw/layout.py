@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.draw import dotted
 from app.draw.labels import placed
 from app.draw.picture import Box, Camera, Diagram, Dot, Note, Pane, Picture
 from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
@@ -68,9 +69,12 @@ def overlay(
     """
     found: list[Primitive] = []
     areas = pane_areas(picture, width, height, words)
+    spreads = _spreads(picture, areas, height / 1000)
     live = cameras or [None] * len(picture.panes)
-    for pane, area, camera in zip(picture.panes, areas, live, strict=True):
-        if isinstance(pane.content, Diagram):
+    for k, (pane, area, camera) in enumerate(zip(picture.panes, areas, live, strict=True)):
+        if k in spreads and isinstance(pane.content, Diagram):
+            found.extend(dotted.drawn(pane.content, spreads[k], picture.stroke))
+        elif isinstance(pane.content, Diagram):
             found.extend(_diagram(pane.content, area, picture, height))
         else:
             seen = camera or fitted(pane.content.camera, area)
@@ -275,25 +279,24 @@ def part_at(
 ) -> tuple[int, Box | Dot] | None:
     """The box or dot of a diagram under a place of the picture, the topmost, and the number of its pane."""
     unit = height / 1000
-    for k, (pane, area) in enumerate(zip(picture.panes, pane_areas(picture, width, height, words), strict=True)):
+    areas = pane_areas(picture, width, height, words)
+    spreads = _spreads(picture, areas, unit)
+    for k, (pane, area) in enumerate(zip(picture.panes, areas, strict=True)):
         if not isinstance(pane.content, Diagram):
             continue
+        if k in spreads and (dot := dotted.nearest(pane.content, spreads[k], x, y)) is not None:
+            return k, dot
         cells = _cells(pane.content, area, unit)
-        parts: list[Box | Dot] = [*reversed(pane.content.dots), *reversed(pane.content.boxes)]
-        for part in parts:
+        for part in reversed(pane.content.boxes):
             across, down = (abs(a - b) for a, b in zip(cells.at(part.x, part.y), (x, y), strict=True))
-            if isinstance(part, Dot):
-                reach = 2 * part.size * unit, 2 * part.size * unit
-            else:
-                wide, tall = cells.of(part)
-                reach = wide / 2, tall / 2
-            if across <= reach[0] and down <= reach[1]:
+            wide, tall = cells.of(part)
+            if across <= wide / 2 and down <= tall / 2:
                 return k, part
     return None
 
 
 def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> list[Primitive]:
-    """Links, boxes, dots and notes, the later ones over the earlier."""
+    """Links, boxes and notes, the later ones over the earlier."""
     unit = height / 1000
     cells, margin = _cells(diagram, area, unit), MARGIN * unit
     links: list[Primitive] = [
@@ -308,7 +311,6 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
         for b, (text, size) in zip(diagram.boxes, said, strict=True)
         for primitive in _box(b, cells, text, size, b.line * unit * picture.stroke)
     ]
-    dots = [Mark(*cells.at(d.x, d.y), d.shape, d.size * unit * picture.stroke**0.5, d.colour) for d in diagram.dots]
     usual = max(min(NOTE * unit * picture.scale, 0.5 * cells.tall), LEAST * unit)
     notes = [
         text
@@ -317,7 +319,19 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
             n, cells.at(n.x, n.y), max(n.size * picture.scale, LEAST) * unit if n.size else usual, unit, area, margin
         )
     ]
-    return [*links, *boxes, *dots, *notes]
+    return [*links, *boxes, *notes]
+
+
+def _spreads(picture: Picture, areas: Sequence[Area], unit: float) -> dict[int, dotted.Spread]:
+    """The panes with dots, by number, all with type of one size."""
+    unit, margin = unit * picture.scale, 0.5 * MARGIN * unit
+    found = {
+        k: (pane.content, (x + margin, y + margin, max(w - 2 * margin, 1.0), max(h - 2 * margin, 1.0)))
+        for k, (pane, (x, y, w, h)) in enumerate(zip(picture.panes, areas, strict=True))
+        if isinstance(pane.content, Diagram) and pane.content.dots
+    }
+    most = min((dotted.spread(diagram, area, unit).size for diagram, area in found.values()), default=0.0)
+    return {k: dotted.spread(diagram, area, unit, most) for k, (diagram, area) in found.items()}
 
 
 def _spelled(diagram: Diagram, cells: _Cells, unit: float, scale: float) -> list[tuple[str, float]]:

@@ -190,7 +190,10 @@ class Note:
 
 @dataclass(frozen=True)
 class Dot:
-    """A flat marker of a diagram, in cells; ``size`` is its radius in logical points."""
+    """A flat marker of a diagram, in cells; ``size`` is its radius in logical points.
+
+    ``text`` stands beside it, off in the direction ``way`` (right and down), as large as there is room for.
+    """
 
     x: float
     y: float
@@ -199,6 +202,8 @@ class Dot:
     colour: Colour
     point: int = -1
     stage: int = -1
+    text: str = ""
+    way: tuple[float, float] = (1.0, 0.0)
 
 
 @dataclass(frozen=True)

@@ -120,9 +120,12 @@ def _shown_vertices(t: Connectivity) -> Mask:
 
 
 def _shown_helpers(t: Connectivity, helpers: int) -> Mask:
-    """A helper belongs to the face, or to the corner of a face, that has its number."""
-    shown = ~t.hidden if helpers == t.n_faces else shown_corners(t)
-    return shown if len(shown) == helpers else np.ones(helpers, dtype=np.bool_)
+    """A helper belongs to the face, the edge or the corner that has its number; edges may come after faces."""
+    edges = _shown_vertices(t)[t.ends].all(axis=1)
+    for shown in (~t.hidden, edges, np.concatenate([~t.hidden, edges]), shown_corners(t)):
+        if len(shown) == helpers:
+            return np.asarray(shown)
+    return np.ones(helpers, dtype=np.bool_)
 
 
 def _faces(frame: Frame, theme: Theme) -> tuple[Faces, ...]:
@@ -173,14 +176,15 @@ def _outline(t: Connectivity) -> Mask:
     return np.zeros(t.n_edges, dtype=np.bool_) if isinstance(t, Polyline) else t.boundary
 
 
-def _is_cornered(t: Connectivity, n_points: int) -> bool:
+def _is_cornered(t: Connectivity, roles: Indices) -> bool:
     """Whether the helpers are one to each corner of each face: weighted centroids."""
-    return 0 < len(t.origin) == n_points - t.n_vertices
+    helpers = roles[t.n_vertices :]
+    return 0 < len(t.origin) == len(helpers) and bool((helpers == Role.CENTROID).all())
 
 
 def _belonging(frame: Frame, theme: Theme, options: Options) -> tuple[Lines, ...]:
     """A thin stroke from every weighted centroid to the corner it is for."""
-    if not options.helpers or not _is_cornered(frame.topology, len(frame.points)):
+    if not options.helpers or not _is_cornered(frame.topology, frame.roles):
         return ()
     t, n = frame.topology, frame.topology.n_vertices
     pairs = np.stack([t.origin, n + np.arange(len(t.origin))], axis=1)[shown_corners(t)]
@@ -216,7 +220,7 @@ def _leaving(
     if opacity == 0 or not len(frame.leaving):
         return ()
     shown = frame.leaving[~faint[frame.leaving]]
-    cornered = _is_cornered(frame.before.topology, len(frame.old_points))
+    cornered = _is_cornered(frame.before.topology, frame.old_roles)
     found = []
     for role in Role:
         of = shown[frame.old_roles[shown] == role]
@@ -248,7 +252,7 @@ def _sizes(frame: Frame, radius: float, *, alone: float, is_many: bool) -> Float
     """(n,) radius of each point's marker; where there are too many only extraordinary vertices have one."""
     if is_many:
         return np.where(_extraordinary(frame), alone, 0.0)
-    cornered = _is_cornered(frame.topology, len(frame.points))
+    cornered = _is_cornered(frame.topology, frame.roles)
     sizes: Floats = np.array([_marker(r, cornered)[1] for r in Role])[_roles(frame)]
     return sizes * radius * motion.grown(frame.birth)
 
@@ -261,7 +265,7 @@ def _roles(frame: Frame) -> Indices:
 
 def _markers(frame: Frame, theme: Theme, options: Options, size: Floats, faint: Mask) -> tuple[Markers, ...]:
     """The points by role."""
-    roles, cornered = _roles(frame), _is_cornered(frame.topology, len(frame.points))
+    roles, cornered = _roles(frame), _is_cornered(frame.topology, frame.roles)
     found = []
     special = _extraordinary(frame) & (roles == Role.ORIGINAL) & (theme.extraordinary is not None)
     for role in Role:

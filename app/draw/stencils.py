@@ -1,78 +1,87 @@
 """Stencils as the lecture draws them: black discs, their weights, and a clear diamond for the point they make.
 
-The plane is the trace's control object seen from above; every weight is read from the engine's row.
+The plane is the trace's control object seen from above, one cell to an edge of its mesh; every weight is
+read from the engine's row.
 """
 
 import numpy as np
 
-from app.draw.picture import Diagram, Dot, Entry, Link, Note, Pane, Shape
+from app.draw.picture import Diagram, Dot, Entry, Link, Pane, Scene, Shape
 from app.draw.pointed import Pointed
-from app.draw.theme import Theme
-from subdivision import Role, Trace
+from app.draw.theme import NAMES, Theme
+from subdivision import Role, Stencil, Trace
 from subdivision.arrays import Floats, Indices
 from subdivision.exact import spelled_together
 
-DISC, DIAMOND = 13.0, 17.0
+DISC, DIAMOND = 15.0, 19.0
 """Radii in logical points."""
 
-TYPE = 30.0
-OFF = 34.0
-"""From a disc to the middle of its weight, in logical points."""
+STROKE = 3.6
 
-CELLS = 3.0
-"""The longest stroke from the new point to a contributor is this many cells."""
+LARGEST = 250.0
+"""The longest that an edge is drawn, in logical points."""
+
+NEAR = 0.1
+"""So near to the new point, relative to an edge, there is no outwards."""
 
 
 def stencil(trace: Trace, row: Pointed, theme: Theme) -> Diagram:
-    """A row as a flat picture."""
-    places, here = _places(trace, row)
-    ink = theme.roles[Role.ORIGINAL]
-    edges = _edges(trace, row)
-    number = {int(p): k for k, p in enumerate(row.stencil.parents)}
-    links = tuple(
-        _link(places[number[a]], places[number[b]], theme) for a, b in edges.tolist() if a in number and b in number
-    )
-    words = spelled_together([w for _, w in row.stencil.terms])
-    begin = row.stage - row.span
-    dots = [Dot(x, y, Shape.SPHERE, DISC, ink, p, begin) for p, (x, y) in zip(number, places, strict=True)]
-    notes = [
-        Note(x, y, word, theme.ink, "center", size=TYPE, away=_away((x, y), here))
-        for word, (x, y) in zip(words, places, strict=True)
+    """A row as a flat picture: the mesh's edges among the contributors, each with its weight; and the new point."""
+    ink, begin = theme.roles[Role.ORIGINAL], row.stage - row.span
+    links = _edges(trace, row)
+    places = _places(trace, row, links)
+    ways = [_way(places, links, k) for k in range(len(places))]
+    dots = [
+        Dot(float(x), float(y), Shape.SPHERE, DISC, ink, int(p), begin, text, way)
+        for p, (x, y), text, way in zip(row.stencil.parents, places, spelled(row.stencil), ways, strict=True)
     ]
-    dots.append(Dot(*here, Shape.CLEAR, DIAMOND, ink, row.stencil.point, row.stage))
-    low, high = (np.vstack([places, here]).min(axis=0) - 0.6, np.vstack([places, here]).max(axis=0) + 0.6)
-    return Diagram((*low, *high), (), links, tuple(notes), tuple(dots), largest=110.0)
+    dots.append(Dot(0.0, 0.0, Shape.CLEAR, DIAMOND, ink, row.stencil.point, row.stage))
+    strokes = tuple(Link(*map(float, places[pair].ravel()), theme.edge, width=STROKE) for pair in links)
+    around = np.vstack([places, np.zeros(2)])
+    return Diagram((*around.min(axis=0), *around.max(axis=0)), (), strokes, (), tuple(dots), largest=LARGEST)
 
 
 def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
-    """Discs and diamond, if a stencil is in the picture."""
-    dots = [d for p in panes if isinstance(p.content, Diagram) for d in p.content.dots]
-    if not dots:
+    """What the discs are, unless a scene beside them says so, and the diamond; nothing where there is no stencil."""
+    if not any(isinstance(p.content, Diagram) and p.content.dots for p in panes):
         return ()
-    ink = theme.roles[Role.ORIGINAL]
-    return Entry(Shape.SPHERE, ink, "contributes"), Entry(Shape.CLEAR, ink, "new point")
+    ink, old = theme.roles[Role.ORIGINAL], NAMES[Role.ORIGINAL]
+    named = any(m.name == old for p in panes if isinstance(p.content, Scene) for m in p.content.markers)
+    disc, diamond = Entry(Shape.SPHERE, ink, old), Entry(Shape.CLEAR, ink, "new point")
+    return (diamond,) if named else (disc, diamond)
 
 
-def _places(trace: Trace, row: Pointed) -> tuple[Floats, tuple[float, float]]:
-    """(n, 2) in cells, y downwards: the contributors; and the new point."""
-    old, new = trace.points[row.stage - row.span][:, :2], trace.points[row.stage][row.stencil.point, :2]
-    found = old[row.stencil.parents]
-    far = float(np.linalg.norm(found - new, axis=1).max())
-    places = (found - new) * np.array([1, -1]) * CELLS / max(far, 1e-9)
-    return places, (0.0, 0.0)
-
-
-def _link(a: Floats, b: Floats, theme: Theme) -> Link:
-    return Link(float(a[0]), float(a[1]), float(b[0]), float(b[1]), theme.edge, width=3.0)
+def spelled(row: Stencil) -> list[str]:
+    """The weights, as fractions of one denominator; four decimals where they are no fractions."""
+    words = spelled_together([weight for _, weight in row.terms])
+    return [f"≈{float(w):.4f}" if "." in word else word for word, (_, w) in zip(words, row.terms, strict=True)]
 
 
 def _edges(trace: Trace, row: Pointed) -> Indices:
-    return np.asarray(trace.topology_at(row.stage - row.span).ends)
+    """(n_links, 2) int: edges of the mesh between two contributors, by their place in the row."""
+    ends, parents = trace.topology_at(row.stage - row.span).ends, row.stencil.parents
+    place = np.full(len(trace.points[row.stage - row.span]), -1)
+    place[parents] = np.arange(len(parents))
+    found = place[ends]
+    return np.asarray(found[(found >= 0).all(axis=1)])
 
 
-def _away(at: tuple[float, float], here: tuple[float, float]) -> tuple[float, float]:
-    """Outwards from the new point; the new point's own weight stands lower right."""
-    off = np.array(at) - np.array(here)
-    far = float(np.linalg.norm(off))
-    x, y = off / far if far > 1e-9 else (0.8, 0.6)
-    return float(OFF * x * 1.3), float(-OFF * y)
+def _places(trace: Trace, row: Pointed, links: Indices) -> Floats:
+    """(n_contributors, 2) in cells, x to the right and y downwards from the new point."""
+    old, new = trace.points[row.stage - row.span][:, :2], trace.points[row.stage][row.stencil.point, :2]
+    found = (old[row.stencil.parents] - new) * np.array([1.0, -1.0])
+    sides = found[links[:, 0]] - found[links[:, 1]] if len(links) else found
+    return np.asarray(found / max(float(np.linalg.norm(sides, axis=1).max()), 1e-9))
+
+
+def _way(places: Floats, links: Indices, k: int) -> tuple[float, float]:
+    """Where the weight of contributor ``k`` stands: outwards; at the new point between two edges, to the right."""
+    x, y = places[k]
+    far = float(np.hypot(x, y))
+    if far > NEAR:
+        return float(x) / far, float(y) / far
+    ends = links[(links == k).any(axis=1)].sum(axis=1) - k
+    angles = np.sort(np.arctan2(places[ends, 1], places[ends, 0]))
+    between = (angles + np.diff(angles, append=angles[0] + 2 * np.pi) / 2 + np.pi) % (2 * np.pi) - np.pi
+    angle = between[np.argmin(np.abs(between - 1e-3))] if len(between) else 0.0
+    return float(np.cos(angle)), float(np.sin(angle))

@@ -9,11 +9,14 @@ from types import MappingProxyType
 
 from subdivision.shapes.characters import duck, mug, pawn
 from subdivision.shapes.fans import (
+    dome,
     face_and_ring,
     quad_fan,
     quad_sheet,
+    quad_star,
     triangle_fan,
     triangle_sheet,
+    triangle_star,
     two_triangles_and_ring,
 )
 from subdivision.shapes.nets import cylinder_net, landscape, net, torus_net
@@ -60,7 +63,8 @@ SHAPES: Mapping[str, Callable[[], Mesh]] = MappingProxyType({
 """Menus and the command line offer these, in this order; words are joined by hyphens."""
 
 __all__ = [
-    "SHAPES", "bipyramid", "closed_polygon", "cube", "cylinder_net", "duck", "face_and_ring", "hook", "icosahedron",
-    "landscape", "mug", "net", "octahedron", "pawn", "plus_sign", "polygon", "quad_bipyramid", "quad_fan", "quad_sheet",
-    "tetrahedron", "torus", "torus_net", "triangle_fan", "triangle_sheet", "triangle_torus", "two_triangles_and_ring",
+    "SHAPES", "bipyramid", "closed_polygon", "cube", "cylinder_net", "dome", "duck", "face_and_ring", "hook",
+    "icosahedron", "landscape", "mug", "net", "octahedron", "pawn", "plus_sign", "polygon", "quad_bipyramid",
+    "quad_fan", "quad_sheet", "quad_star", "tetrahedron", "torus", "torus_net", "triangle_fan", "triangle_sheet",
+    "triangle_star", "triangle_torus", "two_triangles_and_ring",
 ]  # fmt: skip

@@ -11,7 +11,7 @@ import numpy as np
 
 from subdivision.arrays import Floats
 from subdivision.manifold import TopologyError
-from subdivision.shapes.build import mesh, meshed
+from subdivision.shapes.build import mesh, meshed, turns
 from subdivision.shapes.nets import net
 from subdivision.trace import Mesh
 
@@ -66,6 +66,31 @@ def triangle_fan(n: int = 8, rings: int = 1) -> Mesh:
             faces += [[number(r, s, j), number(r + 1, s, j + 1), number(r, s, j + 1)] for j in range(r)]
     places = [_between(n, r, s, j) for r in range(1, rings + 1) for s in range(n) for j in range(r)]
     return mesh(_dome(np.array([(0.0, 0.0), *places])), faces)
+
+
+def quad_star(n: int = 6, rings: int = 1) -> Mesh:
+    """The fan of quads drawn flat, all sides of length 1: ``n`` rhombi round vertex 0, the first spoke up.
+
+    Vertices and faces are numbered as in ``quad_fan``; at n = 4 it is a piece of the square grid.
+    """
+    places = [(s, i, j) for r in range(1, rings + 1) for s in range(n) for i, j in _corner_path(r)[:-1]]
+    return Mesh(quad_fan(n, rings).topology, _rhombic(n, places))
+
+
+def triangle_star(n: int = 6, rings: int = 1) -> Mesh:
+    """The fan of triangles drawn flat, all spokes of length 1, the first one up; equilateral at n = 6.
+
+    Vertices and faces are numbered as in ``triangle_fan``.
+    """
+    places = [(s, r - j, j) for r in range(1, rings + 1) for s in range(n) for j in range(r)]
+    return Mesh(triangle_fan(n, rings).topology, _rhombic(n, places))
+
+
+def dome(star: Mesh, reach: float = 0.85) -> Mesh:
+    """A star's points raised to the unit sphere, vertex 0 to its top; the outermost is ``reach`` from the axis."""
+    flat = star.points * reach / np.linalg.norm(star.points, axis=1).max()
+    flat[:, 2] = np.sqrt(1 - (flat**2).sum(axis=1))
+    return Mesh(star.topology, flat)
 
 
 def face_and_ring() -> Mesh:
@@ -129,6 +154,14 @@ def _between(n: int, r: int, s: int, j: int) -> tuple[float, float]:
     x, y = r - j + j * np.cos(step), j * np.sin(step)
     straight = np.hypot(x, y)
     return (straight + r) / 2, (s + np.arctan2(y, x) / step) / n
+
+
+def _rhombic(n: int, places: list[tuple[int, int, int]]) -> Floats:
+    """(1 + n_places, 3): the middle, then places (s, i, j): ``i`` steps along spoke ``s`` and ``j`` along the next."""
+    angles = turns(n) + np.pi / 2
+    spokes = np.stack([np.cos(angles), np.sin(angles), np.zeros(n)], axis=1)
+    s, i, j = np.array(places).T
+    return np.vstack([np.zeros(3), i[:, None] * spokes[s] + j[:, None] * spokes[(s + 1) % n]])
 
 
 def _dome(polar: Floats) -> Floats:
