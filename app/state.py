@@ -63,6 +63,7 @@ class Options:
     legend: bool = True
     control: bool = False
     as_caption: bool = False
+    across: str = "step"
     theme: str = "light"
     speed: float = 1.0
     through: bool = False

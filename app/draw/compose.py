@@ -4,17 +4,20 @@ Nothing is painted: the result is a display list, so that a test can read "four 
 3/8 3/8 1/8 1/8" without a screen, and every painter paints the same.
 """
 
+from contextlib import suppress
+from dataclasses import replace
 from itertools import accumulate, pairwise
 
 from app.draw import diagrams, motion, stencils
 from app.draw.framing import camera
+from app.draw.isophotes import isophotes
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
-from app.draw.pointed import Pointed
+from app.draw.pointed import Pointed, row_of
 from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
 from app.draw.theme import NAMES, Theme, theme_of
 from app.state import Spot, State, level_of
 from lessons.script import Beat, Kind, View
-from subdivision import Mesh, Polyline, Role, Step
+from subdivision import Mesh, Polyline, Role, TopologyError
 
 PYRAMID, ARRAY = 1.8, 1.4
 """How wide the diagrams of polygons and nets are beside a scene, relative to it."""
@@ -65,15 +68,22 @@ def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
 
 def pointed(state: State, view: View) -> Pointed | None:
     """The row to point out in a view: of the point in focus, else the lesson's own at the end of its beat."""
-    trace, at, spot = state.trace(view), view.at(state.progress), state.focus
-    if spot is not None and state.now.views[spot.pane].trace is view.trace and at == int(at):
-        k = spot.stage
-        if 0 < k <= at and spot.point < trace.stages[k - 1].n_points:
-            begin = trace.begins(trace.levels[k - 1])
-            return Pointed(Step(trace.stages[begin:k]).stencil(spot.point), k, k - begin)
+    if (found := in_focus(state, view)) is not None:
+        with suppress(TopologyError):  # no limit to read: the panel beside the picture says why
+            return row_of(state.trace(view), found, state.options.across)
     if view.stencil is not None and state.progress == 1:
         return Pointed(view.stencil, int(view.stop), view.span)
     return None
+
+
+def in_focus(state: State, view: View) -> Spot | None:
+    """The point in focus, if it is one of this view's, here or on the way here."""
+    at, spot = view.at(state.progress), state.focus
+    if spot is None or state.now.views[spot.pane].trace is not view.trace or at != int(at) or spot.stage > at:
+        return None
+    trace = view.trace
+    n = trace.stages[spot.stage - 1].n_points if spot.stage else trace.control.topology.n_vertices
+    return spot if spot.point < n else None
 
 
 def lit(state: State, view: View) -> Spot | None:
@@ -103,7 +113,10 @@ def _content(state: State, view: View, theme: Theme, share: float) -> Scene | Di
     # of the trace as the lesson has it: dragging a point moves no camera
     seen = camera(view.trace, view.look or state.now.look)
     over = shown_mesh(state, view.over) if view.over is not None else None
-    return scene(trace.frame(motion.eased(at)), trace, seen, state.options, theme, row, view.marks, over, share)
+    options = replace(state.options, net=False) if view.isophotes else state.options
+    made = scene(trace.frame(motion.eased(at)), trace, seen, options, theme, row, view.marks, over, share)
+    bands = tuple(isophotes(faces, theme.ink, 3.0 * theme.stroke) for faces in made.faces if view.isophotes)
+    return replace(made, lines=(*made.lines, *bands))
 
 
 def _measured(state: State, view: View) -> str:

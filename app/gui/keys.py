@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QApplication, QLineEdit
+from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QAbstractSpinBox, QApplication, QLineEdit
 
+from app.draw.pointed import ACROSS
 from app.gui.shown import SHOWN
 from app.gui.timeline import SPEEDS, next_speed, spoken_speed
 from app.state import (
@@ -65,6 +66,13 @@ def _speed(speed: float) -> Command:
     return Command(f"speed_{speed:g}", name, "Speed", (), _wish(choose, speed=speed), lambda o: o.speed == speed)
 
 
+def _across(key: int, across: str) -> Command:
+    name = f"Weights across {ACROSS[across].split(',')[0].removeprefix('to ')}"
+    return Command(
+        f"across_{across}", name, "View", (str(key),), _wish(choose, across=across), lambda o: o.across == across
+    )
+
+
 def _pace(by: int) -> Does:
     return lambda w: w.session.do(choose, speed=held_speed(w.session.state.options.speed, by))
 
@@ -99,6 +107,7 @@ COMMANDS = (
     Command("blank", "Blank the picture", "Present", (".", "B"), _wish(toggle, "blank"), lambda o: o.blank),
     Command("escape", "Leave full screen, close what is open", "Present", ("Esc",), lambda w: w.escape()),
     *(_switch(option, name, key) for option, name, key in SHOWN),
+    *(_across(k, across) for k, across in enumerate(ACROSS, 1)),
     Command("contents", "Lessons panel", "View", ("F9",), lambda w: w.toggle_panel("contents"), icon="contents"),
     Command("shown", "Details panel", "View", ("F10",), lambda w: w.toggle_panel("details"), icon="shown"),
     Command("camera", "Reset the view", "View", ("R",), lambda w: w.viewport.reset_camera()),
@@ -145,7 +154,7 @@ class KeyGuard(QObject):
     """Lets our keys through to their commands wherever the focus is.
 
     Qt asks the focus widget first whether it wants a key for itself.  A search box keeps what it can
-    type, and its editing keys while there is something to edit; a list keeps Up and Down; a button
+    type, and its editing keys while there is something to edit; a number all plain keys; a list Up and Down; a button
     reached by Tab keeps Space.  All other keys of the table are nobody's but the table's.
     """
 
@@ -168,6 +177,8 @@ class KeyGuard(QObject):
 def wants(focus: object, event: QKeyEvent) -> bool | None:
     """Whether the widget in focus keeps a key: yes, no, or as it says itself (None)."""
     key, plain = event.key(), not event.modifiers() & ~HARMLESS
+    if isinstance(focus, QAbstractSpinBox):
+        return plain and key not in (Qt.Key.Key_PageDown, Qt.Key.Key_PageUp, Qt.Key.Key_Escape)
     if isinstance(focus, QLineEdit):
         if focus.text() and key not in (Qt.Key.Key_PageDown, Qt.Key.Key_PageUp):
             return None

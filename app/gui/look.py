@@ -102,6 +102,9 @@ QPushButton:hover { background: $tint; }
 QPushButton:focus { border: 2px solid $accent; padding: 3px 15px; }
 QLineEdit { border: 1px solid $line; border-radius: 6px; padding: 5px 8px; background: $background; }
 QLineEdit:focus { border: 2px solid $accent; padding: 4px 7px; }
+QDoubleSpinBox { border: 1px solid $line; border-radius: 6px; padding: 3px 4px; background: $background; }
+QAbstractSpinBox QLineEdit, QAbstractSpinBox QLineEdit:focus { border: none; padding: 0; background: transparent; }
+QDoubleSpinBox:focus { border: 2px solid $accent; padding: 2px 3px; }
 QComboBox { border: 1px solid $line; border-radius: 6px; padding: 4px 8px; background: $background; }
 QComboBox:hover { background: $tint; }
 QComboBox:focus { border: 2px solid $accent; padding: 3px 7px; }

@@ -6,6 +6,7 @@ from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QMenu
 
 import lessons
+from app.draw.pointed import ACROSS
 from app.draw.theme import THEMES
 from app.gui.shown import SHOWN
 from app.gui.timeline import SPEEDS
@@ -17,7 +18,8 @@ if TYPE_CHECKING:
 MENUS = (
     ("File", ("open", "", "save", "copy", "", "quit")),
     ("Edit", ("undo", "redo")),
-    ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "", "camera", "contents", "shown")),
+    ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "", *(f"across_{k}" for k in ACROSS), "",
+              "camera", "contents", "shown")),
     ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "more", "less",
                 "more_2", "less_2", "", "through",
                 "@Speed", "", "search", "@Lessons")),

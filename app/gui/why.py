@@ -6,13 +6,16 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
-from app.draw.compose import pointed
-from app.draw.pointed import Pointed
+from app.draw.compose import in_focus, pointed
+from app.draw.pointed import Pointed, row_of
 from app.draw.theme import NAMES, THEMES
+from app.gui.across import Across
 from app.gui.look import GRID, colour, type_face
+from app.gui.place import Place
+from app.gui.session import Session
 from app.state import State, level_of
 from lessons.script import View
-from subdivision import Role, Stencil
+from subdivision import Role, Stencil, TopologyError
 from subdivision.exact import spelled, spelled_together
 
 EMPTY = "Point at a vertex to see how it is made."
@@ -24,13 +27,14 @@ MOST = 12
 class Why(QWidget):
     """A sentence, the weights by size, and the counts of the level."""
 
-    def __init__(self) -> None:
+    def __init__(self, session: Session) -> None:
         super().__init__()
+        self.across, self.place = Across(session), Place(session)
         self._words = QLabel(wordWrap=True, textFormat=Qt.TextFormat.RichText)
         self._words.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._words.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._words.setMinimumHeight(20 * GRID)
+        self._words.setMinimumHeight(16 * GRID)
         self._counts = [(QLabel(), QLabel(name)) for name in ("V", "E", "F", "χ")]
         self._level = QLabel()
         for quiet in (self._level, *(name for _, name in self._counts)):
@@ -39,7 +43,9 @@ class Why(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(GRID)
+        column.addWidget(self.across)
         column.addWidget(self._words, 1)
+        column.addWidget(self.place)
         column.addWidget(self._level)
         grid = QGridLayout()
         grid.setHorizontalSpacing(GRID)
@@ -52,8 +58,10 @@ class Why(QWidget):
         column.addLayout(grid)
 
     def show_state(self, state: State) -> None:
-        view = state.now.lead
-        about = (state.lesson, state.beat, state.at, state.focus, state.options.theme, state.edits)
+        self.across.show_state(state)
+        self.place.show_state(state)
+        view, o = state.now.lead, state.options
+        about = (state.lesson, state.beat, state.at, state.focus, o.theme, o.across, state.edits)
         if about == self._about:
             return
         self._about = about
@@ -72,9 +80,10 @@ class Why(QWidget):
 
 def _explained(state: State, view: View, row: Pointed | None, muted: str) -> str:
     if row is None:
-        words = EMPTY if state.focus is None else FIRST
+        words = EMPTY if state.focus is None else _refusal(state, view) or FIRST
         return f'<span style="color:{muted}">{words}</span>'
     stencil = row.stencil
+    verb = "tends to" if row.place is not None else "is"
     rows = [
         f'<tr><td align="right" style="padding-right:12px"><b>{escape(weight)}</b></td>'
         f'<td style="padding-right:12px; color:{muted}">×</td><td>{escape(points)}</td></tr>'
@@ -82,9 +91,20 @@ def _explained(state: State, view: View, row: Pointed | None, muted: str) -> str
     ]
     total = sum((w for _, w in stencil.terms), start=0 * stencil.terms[0][1])
     return (
-        f"<p><b>{_named(state, view, row)}</b> is the sum of</p><table cellspacing='2'>{''.join(rows)}</table>"
+        f"<p><b>{_named(state, view, row)}</b> {verb} the sum of</p><table cellspacing='2'>{''.join(rows)}</table>"
         f'<p style="color:{muted}">The weights sum to {escape(spelled(total))}.</p>'
     )
+
+
+def _refusal(state: State, view: View) -> str:
+    """Why there is no row to read."""
+    spot = in_focus(state, view)
+    try:
+        if spot is not None:
+            row_of(state.trace(view), spot, state.options.across)
+    except TopologyError as reason:
+        return str(reason)
+    return ""
 
 
 def grouped(stencil: Stencil) -> list[tuple[str, str]]:

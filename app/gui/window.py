@@ -74,7 +74,7 @@ class Window(QMainWindow):
         self.contents = Contents(session, lessons.all_lessons())
         self.contents.found.connect(self.leave_search)
         self.laboratory = Laboratory(session, self.banner.say)
-        self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(), Notes()
+        self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
         self._build()
         self.opener = Opener(session, self.banner)
         self.sheets = (Keys(session, self), About(session, self))

@@ -90,3 +90,32 @@ def test_a_double_click_puts_the_point_back(cube, qtbot):
     dragged(cube, qtbot, (60, -40))
     QTest.mouseDClick(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
     assert cube.session.state.edits == ()
+
+
+def test_the_keys_1_to_4_read_the_point_across_a_stage_a_step_all_levels_or_to_the_limit(cube, qtbot):
+    QTest.mouseClick(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
+    said = []
+    keys = (Qt.Key.Key_1, Qt.Key.Key_2, Qt.Key.Key_3, Qt.Key.Key_4)
+    for key, across in zip(keys, cube.why.across.buttons, strict=True):
+        QTest.keyClick(cube.windowHandle(), key)
+        assert cube.session.state.options.across == across
+        assert cube.why.across.buttons[across].isChecked()
+        said.append(cube.why._words.text())
+    assert "given, not made" in said[2]
+    assert "12/27" in said[3]
+
+
+def test_typed_coordinates_move_the_control_point_and_leave_the_others_exact(cube, qtbot):
+    QTest.mouseClick(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
+    assert cube.why.place.isVisible()
+    box = cube.why.place.boxes[2]
+    box.setFocus()
+    box.selectAll()
+    QTest.keyClicks(box, "2.5")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    (vertex, to), = cube.session.state.edits
+    start = cube.session.state.now.lead.trace.control.points[VERTEX]
+    assert vertex == VERTEX
+    assert to == (start[0], start[1], 2.5)
+    cube.session.undo()
+    assert cube.session.state.edits == ()
