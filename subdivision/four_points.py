@@ -9,7 +9,8 @@ from fractions import Fraction
 import numpy as np
 
 from subdivision.arrays import Indices, Mask
-from subdivision.operators import MeanOf, Operator, Pick, mix
+from subdivision.operators import Mean, MeanOf, Operator, Pick, mix
+from subdivision.topology import Topology
 from subdivision.weights import by_value
 
 CUBIC = Fraction(1, 16)
@@ -33,3 +34,18 @@ def reflected(index: Indices, there: Mask, end: Indices, inner: Indices, n: int)
     if there.all():
         return known
     return mix(by_value(there), known, 2 * Pick(end, n) + (-1) * Pick(inner, n))
+
+
+def outline(t: Topology, tension: Fraction = CUBIC) -> Operator:
+    """(n_edges, n_vertices): boundary edges to their points on the outline, a four-point curve; other rows are zero.
+
+    The curve ends at sharp vertices, where a phantom point is reflected.
+    """
+    rim, V = np.flatnonzero(t.twin < 0), t.n_vertices
+    a, b = t.origin[rim], t.origin[t.next[rim]]
+    back, ahead = np.zeros(V, dtype=np.intp), np.zeros(V, dtype=np.intp)
+    back[b], ahead[a] = a, b
+    goes_on = t.vertex_sharpness == 0
+    before, after = reflected(back[a], goes_on[a], a, b, V), reflected(ahead[b], goes_on[b], b, a, V)
+    curve = along(before, np.stack([a, b], axis=1), after, tension)
+    return Mean(t.edge[rim], np.arange(len(rim)), (t.n_edges, len(rim))) @ curve

@@ -39,6 +39,13 @@ def refuses_sharp(t: Topology) -> str:
     return f"vertex {pins[0]} is sharp, and it knows no corners; make the vertex smooth" if pins.size else ""
 
 
+def refuses_literal_boundaries(t: Topology) -> str:
+    """Why the outline of ``t`` has no curve of its own, as an interpolating scheme gives it; empty where it has one."""
+    if (t.edge_sharpness[t.boundary] > 0).all():
+        return ""
+    return "its outline is to follow the rule of the inside, which has no points there; choose another boundary"
+
+
 def refuses_open(t: Topology) -> str:
     """Why ``t`` has an outline; empty where it is closed."""
     rim = np.flatnonzero(t.boundary)

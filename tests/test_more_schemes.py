@@ -17,6 +17,7 @@ from subdivision.schemes.chaikin import CHAIKIN
 from subdivision.schemes.doo_sabin import DOO_SABIN, DOO_SABIN_MEAN
 from subdivision.schemes.four_point import Ends, four_point
 from subdivision.schemes.mid_edge import MID_EDGE
+from subdivision.schemes.modified_butterfly import MODIFIED_BUTTERFLY
 from subdivision.schemes.sqrt3 import SQRT3
 
 POLYGONS = [Polyline(7), Polyline(6, closed=True), Polyline(3, closed=True), Polyline(11)]
@@ -413,3 +414,130 @@ def test_sqrt3_says_what_it_does_not_do() -> None:
         SQRT3.step(Topology.from_faces(shapes.tetrahedron().surface.loops(), creases={(0, 2): 2.0}))
     with pytest.raises(TopologyError, match="must be a triangle"):
         SQRT3.step(shapes.cube().topology)
+
+
+OPEN_TRIANGLES = {
+    "triangles": shapes.triangle_sheet, "triangle fan": shapes.triangle_fan, "fan of 4": lambda: shapes.triangle_fan(4),
+}  # fmt: skip
+both = pytest.mark.parametrize(
+    "make", [*TRIANGULAR.values(), *OPEN_TRIANGLES.values()], ids=[*TRIANGULAR, *OPEN_TRIANGLES]
+)
+
+
+@both
+def test_every_telling_of_the_butterfly_is_the_same_matrix_and_it_interpolates(make: Callable[[], Mesh]) -> None:
+    mesh = spread(make())
+    t = mesh.surface
+    assert_all_readings_agree(MODIFIED_BUTTERFLY, t)
+    assert_all_readings_agree(MODIFIED_BUTTERFLY, subdivide(mesh, MODIFIED_BUTTERFLY, 1).topology)
+    assert_relabelling_commutes(MODIFIED_BUTTERFLY, mesh)
+    fine = subdivide(mesh, MODIFIED_BUTTERFLY, 3)
+    assert np.abs(fine.points[: t.n_vertices] - mesh.points).max() == 0
+    assert np.abs(limit_points(fine, MODIFIED_BUTTERFLY) - fine.points).max() == 0
+    for level in range(4):
+        assert MODIFIED_BUTTERFLY.faces_after(t, level) == 4**level * t.n_faces
+    assert fine.surface.euler == t.euler
+    assert_well_made(fine.surface)
+
+
+def triangles_of(t: Topology) -> dict[tuple[int, int], int]:
+    """Directed edge -> the third corner of the triangle on its left."""
+    return {(a, b): c for x, y, z in t.loops() for a, b, c in ((x, y, z), (y, z, x), (z, x, y))}
+
+
+def around(third: dict[tuple[int, int], int], v: int, first: int) -> list[int]:
+    ring = [first]
+    while (after := third[v, ring[-1]]) != first:
+        ring.append(after)
+    return ring
+
+
+@triangular
+def test_the_butterfly_is_its_loop_over_edges(make: Callable[[], Mesh]) -> None:
+    t = make().surface
+    P, third = np.eye(t.n_vertices), triangles_of(t)
+    rows = MODIFIED_BUTTERFLY.step(t).matrix.toarray()[t.n_vertices :]
+    for row, (a, b) in zip(rows, t.ends.tolist(), strict=True):
+        wanted = []
+        for v, w in ((a, b), (b, a)):
+            ring = around(third, v, w)
+            n = len(ring)
+            s = {3: [5 / 12, -1 / 12, -1 / 12], 4: [3 / 8, 0, -1 / 8, 0]}.get(
+                n, [(1 / 4 + cos(2 * pi * j / n) + cos(4 * pi * j / n) / 2) / n for j in range(n)]
+            )
+            if n != 6:
+                wanted.append(3 / 4 * P[v] + sum(s[j] * P[ring[j]] for j in range(n)))
+        if not wanted:
+            wings = third[a, b], third[b, a]
+            corners = [third[v, w] for v, w in ((wings[0], b), (a, wings[0]), (wings[1], a), (b, wings[1]))]
+            wanted = [(P[a] + P[b]) / 2 + sum(P[w] for w in wings) / 8 - sum(P[c] for c in corners) / 16]
+        assert np.abs(row - np.mean(wanted, axis=0)).max() < 1e-12
+
+
+@pytest.mark.parametrize("n", [3, 4, 5, 7, 8, 12])
+def test_round_an_extraordinary_vertex_waves_shrink_by_a_half_and_a_quarter(n: int) -> None:
+    mesh = shapes.triangle_fan(n, rings=3)
+    t = mesh.surface
+    ring = around(triangles_of(t), 0, int(t.ends[(t.ends == 0).any(axis=1)][0].sum()))
+    edge = {frozenset(ends): k for k, ends in enumerate(t.ends.tolist())}
+    rows = MODIFIED_BUTTERFLY.step(t).matrix.toarray()
+    local = rows[[t.n_vertices + edge[frozenset((0, v))] for v in ring]][:, ring]
+    shrinks = np.fft.fft(local[0]).real
+    assert shrinks[0] == pytest.approx(1 / 4, abs=1e-12)
+    assert shrinks[[1, -1]] == pytest.approx(1 / 2, abs=1e-12)
+    assert shrinks[2:-1] == pytest.approx([1 / 4 if k in (2, n - 2) else 0 for k in range(2, n - 1)], abs=1e-12)
+
+
+def test_on_the_regular_lattice_the_butterfly_reproduces_cubics_and_nothing_higher() -> None:
+    net = Grid(10, 10, diagonal=True)
+    step = MODIFIED_BUTTERFLY.step(net.mesh())
+    x, y = np.divmod(np.arange(100.0), 10)
+    places = step.apply(np.stack([x, y, 0 * x], axis=1))
+    inside = ((places[:, :2] > 1.9) & (places[:, :2] < 7.1)).all(axis=1)
+    worst = np.zeros(6)
+    for i, j in [(i, j) for i in range(6) for j in range(6) if i + j < 6]:
+        values = step.matrix @ (x**i * y**j)
+        off = np.abs(values - places[:, 0] ** i * places[:, 1] ** j)[inside].max()
+        worst[i + j] = max(worst[i + j], off)
+    assert worst[:4].max() < 1e-10
+    assert worst[4:].min() > 1e-3
+
+
+@pytest.mark.parametrize("make", OPEN_TRIANGLES.values(), ids=OPEN_TRIANGLES)
+def test_the_outline_of_an_interpolating_scheme_is_the_four_point_curve(make: Callable[[], Mesh]) -> None:
+    assert_outline(MODIFIED_BUTTERFLY, spread(make()))
+
+
+def assert_outline(scheme: Scheme, mesh: Mesh) -> None:
+    t = mesh.surface
+    after = {a: b for loop in t.loops() for a, b in zip(loop, [*loop[1:], loop[0]], strict=True)
+             if not any((b, a) in zip(other, [*other[1:], other[0]], strict=True) for other in t.loops())}  # fmt: skip
+    ring = [min(after)]
+    while after[ring[-1]] != ring[0]:
+        ring.append(after[ring[-1]])
+    curve = Mesh(Polyline(len(ring), closed=True), mesh.points[ring])
+    for level in (1, 2):
+        fine = subdivide(mesh, scheme, level)
+        assert same_points(fine.points[fine.surface.on_boundary], subdivide(curve, four_point(), level).points)
+
+
+@pytest.mark.parametrize("pinned", [(), (0, 5, 30, 35)])
+def test_planes_stay_planes_at_the_boundary_of_the_butterfly_where_sharp_corners_end_the_outline(
+    pinned: tuple[int, ...]
+) -> None:
+    net = Topology.from_faces(Grid(6, 6, diagonal=True).mesh().loops(), corners=dict.fromkeys(pinned, 10.0))
+    places = np.stack(np.divmod(np.arange(36.0), 6), axis=1)
+    off = MODIFIED_BUTTERFLY.step(net).matrix[36:] @ places - places[net.ends].mean(axis=1)
+    assert np.abs(off[~net.boundary]).max() < 1e-12
+    assert (np.abs(off).max() < 1e-12) == bool(pinned)
+
+
+def test_the_butterfly_says_what_it_does_not_do() -> None:
+    with pytest.raises(TopologyError, match="choose another boundary"):
+        MODIFIED_BUTTERFLY.step(literal(shapes.triangle_sheet()).topology)
+    with pytest.raises(TopologyError, match="knows no creases"):
+        MODIFIED_BUTTERFLY.step(Topology.from_faces(shapes.tetrahedron().surface.loops(), creases={(0, 2): 2.0}))
+    with pytest.raises(TopologyError, match="back to back"):
+        MODIFIED_BUTTERFLY.step(Topology.from_faces([[0, 1, 2], [0, 2, 1]]))
+    with pytest.raises(TopologyError, match="must be a triangle"):
+        MODIFIED_BUTTERFLY.step(shapes.cube().topology)

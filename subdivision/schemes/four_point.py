@@ -120,7 +120,7 @@ def _kept(polygon: Polyline, ends: Ends) -> Indices:
 
 
 def _pushed_roles(left: Indices) -> Indices:
-    return np.where(left % 2, Role.EDGE, Role.ORIGINAL)
+    return np.where(left % 2, Role.MOVED, Role.ORIGINAL)
 
 
 def _refuses(t: Connectivity, ends: Ends) -> str:
