@@ -9,7 +9,7 @@ from subdivision import Stencil, Trace, shapes, trace
 from subdivision.exact import Row, add_rows
 from subdivision.schemes import QUAD_CENTROID
 
-LOOK = Look(azimuth=-70.0, elevation=58.0, zoom=1.5)
+LOOK = Look(azimuth=-70.0, elevation=58.0, zoom=1.3)
 VERTEX = 0
 
 
@@ -45,10 +45,12 @@ def exercise_2_centroids_and_stencil(valence: int = 5) -> Iterator[Beat]:
                formula=rf"$9 + 3 + 3 + 1 = 16 \quad (16n = {16 * valence})$",
                claim=sixteenths(one, valence) == [1, 3, 3, 9])
     yield show(told, geometry, "The second brings the same: the vertex has 18 now, the neighbour they share has 6.",
-               look=LOOK, stencil=two, span=3, formula=r"$2 \times (9 + 3 + 3 + 1)$",
+               look=LOOK, stencil=two, span=3,
+               formula=r"$2 \times (9 + 3 + 3 + 1)$",
                claim=sixteenths(two, valence) == [1, 1, 3, 3, 6, 18])
     yield show(told, geometry, f"All {valence}: every neighbour was counted twice. This is the simple stencil.",
-               look=LOOK, stencil=all_of_them, span=3, poster=True, formula=r"$\dfrac{9n\,V + 6 \sum E_i + \sum F_i}{16\,n}$",
+               look=LOOK, stencil=all_of_them, span=3, poster=True,
+               formula=r"$\dfrac{9n\,V + 6 \sum E_i + \sum F_i}{16\,n}$",
                notes="9n + 6n + n = 16n, so the weights sum to one, whatever the valence.",
                claim=all_of_them == whole
                and sixteenths(whole, valence) == [1] * valence + [6] * valence + [9 * valence])

@@ -25,7 +25,7 @@ def exercise_3_hexagon() -> Iterator[Beat]:
     averages = Step((along_s, along_t, diagonal))
     grid = as_grid(averages.topology)
     row = averages.stencil(int(grid.numbers[grid.n_s // 2, grid.n_t // 2]))
-    mesh = trace(TRIANGLE_CENTROID, fragment(Mesh(net.topology.mesh(), net.points)))
+    mesh = trace(TRIANGLE_CENTROID, fragment(Mesh(as_grid(net.topology).mesh(), net.points)))
     topology, centroids, geometry = mesh.stages
     vertex = int(as_grid(net.topology).numbers[2, 2])
     weighted = int(geometry.stencil(vertex).parents[0])

@@ -24,17 +24,17 @@ def exercise_4_valence_three() -> Iterator[Beat]:
     centroids, loop = meshes
     by_centroids, by_loop = ([angle_sum(mesh, TIP) for mesh in each] for each in meshes)
 
-    def both(pair: tuple[Trace, Trace], start: int, stop: int, mark: str = "") -> tuple[View, ...]:
+    def both(pair: tuple[Trace, ...], start: int, stop: int, mark: str = "") -> tuple[View, ...]:
         marks = ((TIP, mark),) if mark else ()
         return tuple(View(told, start, stop, title=title, marks=marks, reading=angles_at(TIP))
                      for told, title in zip(pair, ("centroid averaging", "Loop"), strict=True))
 
     yield side_by_side("A tetrahedron. Three corners of 60 degrees meet at its tip: 180 together.",
                        *both(far, 0, 0, "n = 3"), look=LOOK,
-                       notes="On a smooth surface the angles round a vertex come near 360 degrees. Ask what will happen.",
+                       notes="On a smooth surface the angles round a vertex come to 360 degrees. Ask what will happen.",
                        claim=round(by_centroids[0], 9) == 180)
-    yield side_by_side("One level of each. Left the angles are still 180; right they open.", *both(far, 0, 2), look=LOOK,
-                       formula=r"$\beta = \dfrac{1}{8} \qquad \beta = \dfrac{3}{16}$",
+    yield side_by_side("One level of each. Left the angles are still 180; right they open.", *both(far, 0, 2),
+                       look=LOOK, formula=r"$\beta = \dfrac{1}{8} \qquad \beta = \dfrac{3}{16}$",
                        claim=abs(by_centroids[1] - 180) < 1e-9 and by_loop[1] > 300
                        and [str(stencil_by_valence(told.scheme, 3, "vertex").weight("E1")) for told in far]
                        == ["1/8", "3/16"])
@@ -50,8 +50,8 @@ def exercise_4_valence_three() -> Iterator[Beat]:
     yield side_by_side("Magnify the tip by four for each level: it is the same tip, copied.",
                        *magnifications(centroids, 0, 2, 4), look=LOOK,
                        formula=r"$Q - L = \dfrac{V - L}{4},\quad Q_i - L = \dfrac{N_i - L}{4}$",
-                       notes="L is half way between the vertex and the mean of its neighbours. Both eigenvalues are 1/4; "
-                       "for a smooth limit that of the vertex would have to be the smaller one.",
+                       notes="L is half way between the vertex and the mean of its neighbours. Both eigenvalues are "
+                       "1/4; for a smooth limit that of the vertex would have to be the smaller one.",
                        claim=all(np.allclose(sides(magnified(mesh, k)), sides(magnified(centroids[0], 0)), atol=1e-9)
                                  for k, mesh in enumerate(centroids)) and not ring(TRIANGLE_CENTROID, 3).is_smooth)
     yield side_by_side("Loop's tip, magnified as much, gets flatter and flatter: a plane in the limit.",

@@ -33,7 +33,8 @@ def angles_at(vertex: int) -> Reading:
 
 def isolation(mesh: Mesh) -> str:
     """How many extraordinary vertices there are, and how many edges the nearest two are apart."""
-    return f"{mesh.surface.extraordinary.sum()} extraordinary, {nearest(mesh)} edges apart"
+    edges = nearest(mesh)
+    return f"{mesh.surface.extraordinary.sum()} extraordinary, {edges} edge{'s' * (edges != 1)} apart"
 
 
 def nearest(mesh: Mesh) -> int:
