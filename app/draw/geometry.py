@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from vtkmodules.vtkCommonCore import vtkIdList
-from vtkmodules.vtkCommonDataModel import vtkPolygon
 
 from app.draw.picture import Faces, Lines
 from subdivision.arrays import Floats, Indices
@@ -105,6 +103,9 @@ def _means(faces: Faces) -> Floats:
 
 
 def _ears(corners: Floats, start: int, size: int) -> Indices:
+    from vtkmodules.vtkCommonCore import vtkIdList
+    from vtkmodules.vtkCommonDataModel import vtkPolygon
+
     polygon, found = vtkPolygon(), vtkIdList()
     for k in range(size):
         polygon.GetPointIds().InsertNextId(k)
