@@ -271,7 +271,7 @@ def _turned(chosen: list[Lesson], settings: dict[str, int]) -> list[Lesson]:
                 raise Fault(f"{name} of {each.id} goes from {knob.least} to {knob.most}, not to {value}")
         if not meant:
             there = ", ".join(f"{knob.name} ({knob.least} to {knob.most}) of {each.id}" for knob, each in knobs)
-            raise Fault(f"there is no knob '{name}' here; there is {there or 'none'}")
+            raise Fault(f"there is no knob '{name}' here; " + (f"there are {there}" if there else "there is none"))
     return [each.turned(**settings) for each in chosen]
 
 

@@ -61,7 +61,7 @@ def test_a_section_is_found_by_its_number_and_means_its_first_lesson():
 
 @pytest.mark.parametrize("name", ["", " ", "figure_1x", "5.2", "_", "99", "²", "ube", "a.b(*"])
 def test_what_is_no_lesson_is_told_with_what_there_is(name):
-    with pytest.raises(KeyError, match=f"there is no lesson '{re.escape(name)}'; there are figure_01"):
+    with pytest.raises(KeyError, match=f"there is no lesson '{re.escape(name)}'; there are .*figure_01"):
         lessons.find(name)
 
 
