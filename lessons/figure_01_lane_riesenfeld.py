@@ -17,7 +17,7 @@ def figure_01_lane_riesenfeld(degree: int = 3) -> Iterator[Beat]:
     told = one_step(degree, 4 if degree < 5 else 5)
     split, once, *more = told.stages
     n, last = told.control.topology.n_vertices, told.stages[-1]
-    middle = told.whole.stencil(last.n_points // 2)
+    middle = told.whole.stencil((last.n_points - 1) // 2 | 1)
 
     yield with_diagram(show(told, None, f"A control polygon: {COUNTS[n]} points in a row.",
                             notes="A subdivision procedure takes a control object and gives a finer one of the same "

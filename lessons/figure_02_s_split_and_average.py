@@ -9,7 +9,7 @@ from subdivision import shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import lane_riesenfeld, tensor_product
 
-LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.88)
 
 
 @lesson("Figure 2  Split and average in s", section="2.1 Split and average",

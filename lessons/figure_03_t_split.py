@@ -7,7 +7,7 @@ from subdivision import shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import tensor_product
 
-LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.88)
 
 
 @lesson("Figure 3  Split in t", section="2.1 Split and average",

@@ -9,7 +9,7 @@ from subdivision import Trace, shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import lane_riesenfeld, tensor_product
 
-LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.88)
 TIMES = {1: "once", 2: "twice", 3: "three times"}
 NAMES = {(1, 1): "bilinear", (2, 2): "biquadratic", (3, 3): "bicubic"}
 
@@ -23,11 +23,13 @@ def figure_04_t_average(m: int = 1, n: int = 1) -> Iterator[Beat]:
     middle = told.whole.stencil(int(after.numbers[1, 1]))
     name = NAMES.get((m, n), f"bidegree ({m},{n})")
     panels = "averaged in s, split in t", "averaged in t"
+    start = ("The array of Figure 3: split and averaged in s, then split in t." if m == 1 else
+             f"Like Figure 3, but averaged {TIMES[m]} in s before the split in t.")
 
-    yield with_diagram(show(told, split_t, f"The array of Figure 3: split in s, averaged {TIMES[m]}; split in t.",
-                            look=LOOK, claim=before.shape == (2 * old(told)[0] - m, 2 * old(told)[1]),
+    yield with_diagram(show(told, split_t, start, look=LOOK,
                             notes="For Figure 3 itself both knobs stand at 1. Every average in s has made the array "
-                            "one column narrower."))
+                            "one column narrower.",
+                            claim=before.shape == (2 * old(told)[0] - m, 2 * old(told)[1])))
     yield before_and_after(play(told, first, f"Average {TIMES[n]} in the t-direction: now t is done as s was.",
                                 until=last, look=LOOK, formula=r"$U_{ij} \leftarrow \dfrac{U_{ij} + U_{i,j+1}}{2}$",
                                 notes="Bilinear: originals, edge midpoints and face centroids; the surface keeps its "

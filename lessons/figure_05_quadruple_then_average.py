@@ -6,7 +6,7 @@ from lessons.script import Beat, Kind, Look, View, before_and_after, lesson, pla
 from subdivision import shapes, trace
 from subdivision.schemes import tensor_product
 
-LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.88)
 PANELS = "(a) Split", "(b) Average"
 
 

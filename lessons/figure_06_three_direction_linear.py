@@ -9,7 +9,7 @@ from subdivision import Mesh, Trace, shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import THREE_DIRECTION_LINEAR, TRIANGLE_CENTROID, box_spline
 
-LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.88)
 PANELS = "(a) Quadruple", "(b) Average along (1,1)"
 
 

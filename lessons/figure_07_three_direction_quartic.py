@@ -7,7 +7,7 @@ from subdivision import Stencil, shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import THREE_DIRECTION_LINEAR, box_spline
 
-LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.88)
 PASSES = ((1, 1), (1, 0), (0, 1), (1, 1), (1, 0), (0, 1))
 """Each vector twice, in the order that passes Figure 6 on the way."""
 

@@ -8,7 +8,7 @@ from subdivision import Stencil, Trace, shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import tensor_product
 
-LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=1.3)
+LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.77)
 PANELS = "(a) First round", "(b) Second round"
 FACE, EDGE, VERTEX = [16] * 4, [24, 24, 4, 4, 4, 4], [36, 6, 6, 6, 6, 1, 1, 1, 1]
 

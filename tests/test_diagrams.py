@@ -201,6 +201,18 @@ def test_boxes_fill_in_step_with_the_stage():
     assert changed > 0
 
 
+@each_figure
+def test_the_weights_of_every_box_add_up_to_one_also_between_two_stages(number: str):
+    for lesson in turned(number):
+        for segment in segments(lesson):
+            between = seek(start(lesson), segment.begin + 0.4 * (segment.end - segment.begin))
+            for _, view, content in diagrams_of(between):
+                control = view.trace.control.topology
+                net = control if isinstance(control, Grid) else None
+                below = [int(n.text.partition("1/")[2].partition(" ")[0] or 1) for n in content.notes] or [1]
+                assert all(sum(summed(b.texts[0], net).values()) == below[b.group] for b in content.boxes)
+
+
 # -- lights -----------------------------------------------------------------------------------
 
 

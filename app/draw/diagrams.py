@@ -255,7 +255,7 @@ def _sliding(told: _Told, stages: tuple[Stage, ...], t: float) -> list[Box]:
     grid, done = as_grid(told.control), len(stages)
     new, old = _places(stage.topology), _places(earlier[-1].topology if earlier else grid)
     stencils, below = rows(stages)
-    before, below_before = rows(tuple(earlier)) if earlier else (_unmoved(len(old)), 1)
+    before = rows(tuple(earlier))[0] if earlier else _unmoved(len(old))
     roles = earlier[-1].roles if earlier else np.zeros(len(old), dtype=np.intp)
     shown = _filled(stage.n_points, t)
     boxes = []
@@ -268,7 +268,7 @@ def _sliding(told: _Told, stages: tuple[Stage, ...], t: float) -> list[Box]:
         if shown[i] >= 0.5 or source < 0:
             texts, role = block_texts(stencils[i], below, grid), Role(stage.roles[i])
         else:
-            texts, role = block_texts(before[source], below_before, grid), Role(roles[source])
+            texts, role = block_texts(before[source], below, grid), Role(roles[source])
         boxes.append(_box(told, (float(place[0]), float(place[1])), texts, role, done, i, float(opacity), TALL))
     return boxes
 
