@@ -7,13 +7,14 @@ A lesson is walked from *stop* to *stop*: the end of every stage of every beat. 
 the stage between; going back plays it backwards.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cache, lru_cache
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from app.lab import Lab
+from app.turn import REST, Turn
 from lessons.script import Beat, Lesson, View
 from subdivision import Trace
 
@@ -62,6 +63,7 @@ class Options:
     valences: bool = False
     legend: bool = True
     control: bool = False
+    matrix: bool = False
     as_caption: bool = False
     across: str = "step"
     theme: str = "light"
@@ -85,7 +87,7 @@ class State:
     """Where we are: the lesson, the beat, how far into it, what is pointed at, what was dragged, the laboratory.
 
     ``goal`` is where playing will rest; None while it rests.  ``wait`` is how many stages' time a
-    still is shown before playing through goes on.
+    still is shown before playing through goes on.  ``turn`` is what the hand has done to the beat's camera.
     """
 
     lesson: Lesson
@@ -96,6 +98,7 @@ class State:
     focus: Spot | None = None
     edits: Edits = ()
     lab: Lab | None = None
+    turn: Turn = REST
     options: Options = field(default_factory=Options)
 
     @property
@@ -196,12 +199,19 @@ def start(lesson: Lesson, options: Options | None = None) -> State:
 def open_lesson(state: State, lesson: Lesson, step: int = 0) -> State:
     """Another lesson at its stop number ``step`` (from 0), same options."""
     places = stops(lesson)
-    return at_stop(replace(state, lesson=lesson, edits=()), places[min(max(step, 0), len(places) - 1)])
+    return at_stop(state, places[min(max(step, 0), len(places) - 1)], lesson=lesson, edits=())
 
 
-def at_stop(state: State, stop: Stop) -> State:
-    """Rest at a stop."""
-    return replace(state, beat=stop.beat, at=stop.at, goal=None, wait=0.0, focus=None)
+def at_stop(state: State, stop: Stop, **changes: Any) -> State:
+    """Rest at a stop; ``changes`` may bring another lesson, whose stop it is."""
+    return _moved(state, beat=stop.beat, at=stop.at, goal=None, wait=0.0, focus=None, **changes)
+
+
+def _moved(state: State, **changes: Any) -> State:
+    """The state at another place; another lesson, or another camera of it, is seen as it is meant to be."""
+    there = replace(state, **changes)
+    is_same_view = there.lesson.id == state.lesson.id and there.now.look == state.now.look
+    return there if is_same_view else replace(there, turn=REST)
 
 
 def rest(state: State) -> State:
@@ -225,7 +235,7 @@ def forward(state: State) -> State:
     if goal.beat == state.beat:
         return replace(state, goal=goal)
     return (
-        at_stop(state, goal) if beat.is_still else replace(state, beat=goal.beat, at=beat.start, goal=goal, focus=None)
+        at_stop(state, goal) if beat.is_still else _moved(state, beat=goal.beat, at=beat.start, goal=goal, focus=None)
     )
 
 
@@ -310,7 +320,7 @@ def seek(state: State, axis: float) -> State:
     axis = min(max(axis, 0.0), parts[-1].end)
     s = next(s for s in parts if axis <= s.end)
     at = s.start + (axis - s.begin) / (s.end - s.begin) * (s.stop - s.start)
-    return replace(state, beat=s.beat, at=at, goal=None, wait=0.0, focus=None)
+    return at_stop(state, Stop(s.beat, at))
 
 
 def look(state: State, spot: Spot | None) -> State:
@@ -336,7 +346,18 @@ def set_knob(state: State, name: str, value: int) -> State:
     here = max(k for k, s in enumerate(old) if (s.beat, s.at) <= (state.beat, state.at) or k == 0)
     from_end = len(old) - 1 - here
     k = min(here, len(new) - 1) if here < from_end else max(len(new) - 1 - from_end, 0)
-    return at_stop(replace(state, lesson=other, edits=()), new[k])
+    return at_stop(state, new[k], lesson=other, edits=())
+
+
+def turn_view(state: State, turn: Turn) -> State:
+    """See it from elsewhere."""
+    return replace(state, turn=turn)
+
+
+def is_turned_only(before: State, after: State) -> bool:
+    """Whether two states differ in nothing but from where they are seen."""
+    others = (each.name for each in fields(State) if each.name != "turn")
+    return before.turn != after.turn and all(getattr(before, name) == getattr(after, name) for name in others)
 
 
 def drag(state: State, vertex: int, to: tuple[float, float, float]) -> State:

@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import accumulate, pairwise
 
-from app.draw import diagrams, motion, stencils
+from app.draw import diagrams, matrices, motion, stencils
 from app.draw.framing import camera
 from app.draw.isophotes import isophotes
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
@@ -18,6 +18,9 @@ from app.draw.theme import NAMES, Theme, theme_of
 from app.state import Spot, State, level_of
 from lessons.script import Beat, Kind, View
 from subdivision import Mesh, Polyline, Role, TopologyError
+
+WITH_MATRIX = 0.56
+"""The part of the width that is left to the views beside the matrices."""
 
 PYRAMID, ARRAY = 1.8, 1.4
 """How wide the diagrams of polygons and nets are beside a scene, relative to it."""
@@ -30,6 +33,11 @@ def compose(state: State) -> Picture:
         Pane(_content(state, view, theme, rect[2] * rect[3]), rect, view.title, _measured(state, view))
         for view, rect in zip(beat.views, _rects(beat), strict=True)
     )
+    if state.options.matrix and (lead := _leading_scene(state)) is not None:
+        panes = (
+            *(_narrowed(pane) for pane in panes),
+            Pane(_matrix(state, lead, theme), (WITH_MATRIX, 0, 1 - WITH_MATRIX, 1)),
+        )
     return Picture(
         panes=panes,
         background=theme.background,
@@ -43,6 +51,20 @@ def compose(state: State) -> Picture:
         stroke=theme.stroke,
         scale=theme.type,
     )
+
+
+def _leading_scene(state: State) -> View | None:
+    """The view whose matrices can be shown beside it."""
+    return next((v for v in state.now.views if v.kind is Kind.SCENE and v.trace.stages), None)
+
+
+def _narrowed(pane: Pane) -> Pane:
+    x, y, w, h = pane.rect
+    return replace(pane, rect=(WITH_MATRIX * x, y, WITH_MATRIX * w, h))
+
+
+def _matrix(state: State, view: View, theme: Theme) -> Diagram:
+    return matrices.matrices(view.trace, view.at(state.progress), theme, in_focus(state, view))
 
 
 def dressed(state: State) -> Theme:

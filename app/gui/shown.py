@@ -16,6 +16,7 @@ SHOWN = (
     ("helpers", "Centroids", "C"),
     ("weights", "Weights", "W"),
     ("control", "Control points", "P"),
+    ("matrix", "Matrix", "M"),
     ("labels", "Numbers", "L"),
     ("valences", "Valences", "V"),
     ("legend", "Legend", "I"),

@@ -16,20 +16,24 @@ from app.draw.compose import compose
 from app.draw.layout import fitted, overlay, pane_areas, part_at
 from app.draw.picture import Camera, Picture, Scene
 from app.draw.primitives import Area
+from app.draw.turned import turned
 from app.gui.brush import paint
 from app.gui.grip import AXES, Grip
 from app.gui.look import colour
 from app.gui.narration import Narration
 from app.gui.pointing import nearest
 from app.gui.session import Session
-from app.gui.turn import REST, Turn
-from app.state import Spot, State, drag, look, put_back
+from app.state import Spot, State, drag, is_turned_only, look, put_back, turn_view
+from app.turn import REST, Turn
 
 PANES = 6
 """How many panes the viewport has renderers for."""
 
 CALM = 160
 """Milliseconds without change after which a software-drawn picture is smoothed."""
+
+PAUSE = 500
+"""Milliseconds without the wheel after which zooming on is another change."""
 
 SAMPLES = 8
 TRACK = 4.0
@@ -46,8 +50,6 @@ class Viewport(QWidget):
         self._session = session
         self._state = session.state
         self._picture: Picture = compose(session.state)
-        self._turn: Turn = REST
-        self._about: tuple[object, ...] = ()
         self._press: QPointF | None = None
         self._last = QPointF()
         self._is_drag = self._is_pinned = False
@@ -62,6 +64,8 @@ class Viewport(QWidget):
         self.narration = Narration(session, self)
         self._calm = QTimer(self, singleShot=True, interval=CALM)
         self._calm.timeout.connect(self._smooth)
+        self._pause = QTimer(self, singleShot=True, interval=PAUSE)
+        self._pause.timeout.connect(session.let_go)
         self._pull = QTimer(self, singleShot=True, interval=0)  # one move a picture, however many the mouse sends
         self._pull.timeout.connect(self._pulled)
 
@@ -102,10 +106,10 @@ class Viewport(QWidget):
     # -- showing --------------------------------------------------------------------------------
 
     def show_state(self, state: State) -> None:
-        self._state = state
-        about = (state.lesson.id, state.now.look)
-        if about != self._about:
-            self._about, self._turn = about, REST
+        before, self._state = self._state, state
+        if is_turned_only(before, state):
+            self._look_again()
+            return
         if state.focus is None:
             self._is_pinned = False
         self._picture = compose(state)
@@ -115,7 +119,9 @@ class Viewport(QWidget):
 
     def reset_camera(self) -> None:
         """Stand where the lesson stands."""
+        self._session.let_go()
         self._turned(REST)
+        self._session.let_go()
 
     def areas(self) -> list[Area]:
         """Where the panes are, in pixels of this widget."""
@@ -124,14 +130,14 @@ class Viewport(QWidget):
     def cameras(self) -> list[Camera | None]:
         """From where each pane is seen now."""
         return [
-            self._turn.of(fitted(pane.content.camera, area)) if isinstance(pane.content, Scene) else None
+            turned(fitted(pane.content.camera, area), self._state.turn) if isinstance(pane.content, Scene) else None
             for pane, area in zip(self._picture.panes, self.areas(), strict=True)
         ]
 
     def picture(self) -> Picture:
         """The picture as it is seen now: from where the hand has turned it."""
         panes = (
-            replace(pane, content=replace(pane.content, camera=self._turn.of(pane.content.camera)))
+            replace(pane, content=replace(pane.content, camera=turned(pane.content.camera, self._state.turn)))
             if isinstance(pane.content, Scene)
             else pane
             for pane in self._picture.panes
@@ -172,7 +178,10 @@ class Viewport(QWidget):
         self._redraw()
 
     def _turned(self, turn: Turn) -> None:
-        self._turn = turn
+        self._session.do(turn_view, turn)
+
+    def _look_again(self) -> None:
+        """The same scenes from where the hand has turned them."""
         scenes = [(p.content, c) for p, c in zip(self._picture.panes, self.cameras(), strict=True) if c is not None]
         for painter, (content, camera) in zip(self._painters, scenes, strict=False):
             painter.look(camera)
@@ -260,7 +269,8 @@ class Viewport(QWidget):
         is_flat = not isinstance(content, Scene) or content.camera.scale > 0
         is_left = bool(event.buttons() & Qt.MouseButton.LeftButton)
         shifted = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
-        return self._turn.panned if is_flat or shifted or not is_left else self._turn.rotated
+        turn = self._state.turn
+        return turn.panned if is_flat or shifted or not is_left else turn.rotated
 
     def _released(self, event: QMouseEvent) -> None:
         if self._press is not None and not self._is_drag and event.button() == Qt.MouseButton.LeftButton:
@@ -271,6 +281,7 @@ class Viewport(QWidget):
             self._pull.stop()
             self._target = event.position()
             self._pulled()
+        if self._is_drag:
             self._session.let_go()
         self._press, self._is_drag, self._grip = None, False, None
         self._calm.start()
@@ -283,10 +294,11 @@ class Viewport(QWidget):
             self._session.do(put_back, spot.point)
 
     def _wheel(self, event: QWheelEvent) -> None:
+        self._pause.start()
         _, (x, y, w, h) = self._pane(event.position())
         here = event.position()
         factor = 1.0015 ** (event.angleDelta().y() or event.pixelDelta().y() * 4)
-        self._turned(self._turn.zoomed(factor, (here.x() - x - w / 2) / h, (here.y() - y - h / 2) / h))
+        self._turned(self._state.turn.zoomed(factor, (here.x() - x - w / 2) / h, (here.y() - y - h / 2) / h))
 
     def _pane(self, at: QPointF | None) -> tuple[int, Area]:
         """The pane under the mouse, else the first."""
@@ -303,6 +315,7 @@ class Viewport(QWidget):
             return None
         if found := part_at(self._picture, self.width(), self._tall(), at.x(), at.y(), words=False):
             k, part = found
+            k = k if k < len(state.now.views) else 0  # the matrices are those of the leading view
             return Spot(k, part.stage, part.point) if part.point >= 0 else None
         k, area = self._pane(at)
         content, camera = self._picture.panes[k].content, self.cameras()[k]
