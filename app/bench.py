@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from app.lab import LABORATORY, MOST_PANES, Lab, Rule, affordable, lab_of, lesson_of, natural_family
 from app.state import State, at_stop, settle, stop_level, stops
+from lessons.script import Lesson
 from subdivision import Boundary, Mesh, TopologyError, shapes
 from subdivision.catalogue import FAMILIES, Value, suiting
 
@@ -97,19 +98,19 @@ def put(state: State, lab: Lab) -> State:
     lab = lab if levels == lab.levels else replace(lab, levels=levels)
     state = settle(state)
     is_same = is_open(state) and state.lab is not None and state.lab.control is lab.control
-    there = replace(state, lab=lab, lesson=lesson_of(lab), focus=None, edits=state.edits if is_same else ())
-    place = _same_place(state, there) if is_same else 0
-    return at_stop(there, stops(there.lesson)[place])
+    lesson = lesson_of(lab)
+    place = _same_place(state, lesson) if is_same else 0
+    return at_stop(state, stops(lesson)[place], lab=lab, lesson=lesson, edits=state.edits if is_same else ())
 
 
-def _same_place(state: State, there: State) -> int:
+def _same_place(state: State, there: Lesson) -> int:
     """The stop of the new story that is as far as the state was: the same stage, else the same level."""
-    old, new = stops(state.lesson), stops(there.lesson)
+    old, new = stops(state.lesson), stops(there)
     here = next(k for k, s in enumerate(old) if (s.beat, s.at) >= (state.beat, state.at))
     if len(old) == len(new):
         return here
     level = stop_level(state.lesson, old[here])
-    return max(k for k, s in enumerate(new) if stop_level(there.lesson, s) <= level)
+    return max(k for k, s in enumerate(new) if stop_level(there, s) <= level)
 
 
 def _of(state: State) -> Lab:

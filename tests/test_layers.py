@@ -18,9 +18,10 @@ IMPORTERS = {"__import__", "import_module", "importlib.import_module"}
 LAYERS = {
     "subdivision": ("subdivision",),
     "lessons": ("subdivision", "lessons"),
+    "app.turn": ("app.turn",),
     "app.lab": ("subdivision", "lessons", "app.lab"),
-    "app.state": ("subdivision", "lessons", "app.lab", "app.state"),
-    "app.draw": ("subdivision", "lessons", "app.state", "app.draw"),
+    "app.state": ("subdivision", "lessons", "app.lab", "app.turn", "app.state"),
+    "app.draw": ("subdivision", "lessons", "app.turn", "app.state", "app.draw"),
     "app.figures": ("subdivision", "lessons", "app.state", "app.draw", "app.figures"),
     "app.gui": ("subdivision", "lessons", "app"),
     "app": ("subdivision", "lessons", "app"),

@@ -5,6 +5,7 @@ import pytest
 import lessons
 from app import state as st
 from app.state import Stop
+from app.turn import REST
 
 CUBE = lessons.find("14")
 
@@ -84,3 +85,13 @@ def test_the_ends_of_a_lesson_hold():
     assert where(st.back(state)) == where(state)
     assert where(st.forward(st.last(state))) == where(st.last(state))
     assert where(st.first(st.last(state))) == where(state)
+
+
+def test_another_camera_and_another_lesson_are_seen_as_they_are_meant_to_be():
+    turned = st.turn_view(st.start(CUBE), REST.rotated(0.2, 0.1).zoomed(2.0))
+    for stop in st.stops(CUBE):
+        there = st.at_stop(turned, stop)
+        assert there.turn == (turned.turn if there.now.look == turned.now.look else REST)
+    assert st.open_lesson(turned, lessons.find("12")).turn == REST
+    assert st.open_lesson(turned, CUBE).turn == turned.turn
+    assert st.seek(turned, st.segments(CUBE)[0].end).turn == turned.turn

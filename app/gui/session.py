@@ -6,7 +6,7 @@ from typing import Any, TypeAlias
 
 from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 
-from app.state import State, drag, look, seek, settle, tick
+from app.state import State, drag, look, seek, settle, tick, turn_view
 
 STAGE = 0.8
 """Seconds a stage takes at speed 1."""
@@ -22,7 +22,7 @@ REMEMBERED = 500
 
 Transition: TypeAlias = Callable[..., State]
 
-GESTURES = (seek, drag)
+GESTURES = (seek, drag, turn_view)
 """Many of these in a row are one change to undo, until the hand lets go."""
 
 
@@ -57,12 +57,12 @@ class Session(QObject):
         if not (_is_passing(transition, before, after) or (transition in GESTURES and transition == self._gesture)):
             self._past = [*self._past[-REMEMBERED:], settle(before)]
             self._future = []
-        if transition is not look:
+        if transition not in (look, tick):
             self._gesture = transition
         self._become(after)
 
     def let_go(self) -> None:
-        """The hand lets go: the next drag or scrub is another change."""
+        """The hand lets go: the next drag, scrub or turn is another change."""
         self._gesture = None
 
     def undo(self) -> None:

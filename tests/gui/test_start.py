@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from app.draw.picture import Camera
-from app.gui.turn import REST
+from app.draw.turned import turned
 from app.lab import BUDGET, Lab, Rule, affordable, lab_of, lesson_of
+from app.turn import REST
 from subdivision import Grid, Mesh, shapes
 from subdivision.schemes import QUAD_CENTROID, TRIANGLE_CENTROID
 
@@ -51,25 +52,26 @@ def test_a_mesh_beyond_the_budget_is_played_for_fewer_levels_and_says_so():
 
 def test_no_turn_leaves_the_camera_where_the_lesson_put_it():
     for camera in (SPACE, PLANE):
-        seen = REST.of(camera)
+        seen = turned(camera, REST)
         points = np.array([[0.3, 0.2, 0.1], [-1.0, 0.5, 0.4]])
         assert np.allclose(seen.project(points, 800, 600), camera.project(points, 800, 600))
 
 
 def test_rotating_keeps_the_distance_and_the_vertical_and_never_the_plane():
-    turned = REST.rotated(0.2, 0.1).of(SPACE)
-    assert np.linalg.norm(turned.position) == pytest.approx(np.linalg.norm(SPACE.position))
-    assert turned.up[2] > 0
-    assert np.allclose(REST.rotated(0.2, 0.1).of(PLANE).position, PLANE.position)
-    assert np.arcsin(REST.rotated(0, 5.0).of(SPACE).position[2] / np.linalg.norm(SPACE.position)) < np.pi / 2
+    there = turned(SPACE, REST.rotated(0.2, 0.1))
+    assert np.linalg.norm(there.position) == pytest.approx(np.linalg.norm(SPACE.position))
+    assert there.up[2] > 0
+    assert np.allclose(turned(PLANE, REST.rotated(0.2, 0.1)).position, PLANE.position)
+    steep = turned(SPACE, REST.rotated(0, 5.0))
+    assert np.arcsin(steep.position[2] / np.linalg.norm(SPACE.position)) < np.pi / 2
 
 
 @pytest.mark.parametrize("camera", [SPACE, PLANE])
 def test_panning_and_zooming_keep_what_is_under_the_mouse_under_it(camera):
     height = 600.0
-    moved = REST.panned(30 / height, 40 / height).of(camera).project(np.zeros((1, 3)), 800, height)[0]
+    moved = turned(camera, REST.panned(30 / height, 40 / height)).project(np.zeros((1, 3)), 800, height)[0]
     assert moved[:2] == pytest.approx([430, 340])
     at = camera.focal + 0.2 * np.cross(camera.focal - camera.position, camera.up) / 10
     x, y, _ = camera.project(at[None], 800, height)[0]
-    zoomed = REST.zoomed(1.7, (x - 400) / height, (y - 300) / height).of(camera)
+    zoomed = turned(camera, REST.zoomed(1.7, (x - 400) / height, (y - 300) / height))
     assert zoomed.project(at[None], 800, height)[0][:2] == pytest.approx([x, y])
