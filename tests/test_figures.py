@@ -75,7 +75,7 @@ def test_every_beat_of_every_lesson_is_drawn_and_nothing_is_complained_about(cap
 
 def test_vector_figures_are_the_same_in_two_processes(tmp_path):
     """Of every lesson; whatever order hashing gives to sets."""
-    command = [sys.executable, "-m", "app", "figures", "--format", "svg", "--out"]
+    command = [sys.executable, "-m", "app", "figures", "--format", "svg", "--size", "320x180", "--out"]
     both = [
         subprocess.Popen(
             [*command, str(tmp_path / seed)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
