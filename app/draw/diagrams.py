@@ -41,8 +41,8 @@ DIM = 0.5
 LINE, GLOW = 2.0, 4.5
 """Width of a stroke in logical points, and how much wider a lit one is."""
 
-BLANK, NONE = "\u2007", "·"
-"""A space as wide as a figure; and what stands in a table for a point that does not contribute."""
+BLANK, GAP, NONE = "\u2007", "\u2002", "·"
+"""In a table: a space as wide as a figure, the one between columns, and a point that does not contribute."""
 
 Light: TypeAlias = Mapping[tuple[int, int], float]
 """How bright a point is, by the number of stages done and its own: 0..1."""
@@ -93,8 +93,8 @@ def rows(stages: tuple[Stage, ...]) -> tuple[tuple[Stencil, ...], int]:
 
 
 def times(below: int) -> str:
-    """What every box is multiplied with."""
-    return f"× 1/{below}" if below > 1 else ""
+    """What every box is multiplied with; no line breaks in it."""
+    return f"×\u00a01/{below}" if below > 1 else ""
 
 
 def tinted(colour: Colour, theme: Theme, part: float = TINT) -> Colour:
@@ -163,7 +163,7 @@ def _table(counts: Mapping[int, Fraction | float], grid: Grid) -> str:
     lines = sorted({p % grid.n_t for p in counts}, reverse=True)
     words = [[_spelled(counts[p]) if (p := i * grid.n_t + j) in counts else NONE for i in columns] for j in lines]
     widths = [max(len(line[k]) for line in words) for k in range(len(columns))]
-    return "\n".join(BLANK.join(w.rjust(n, BLANK) for w, n in zip(line, widths, strict=True)) for line in words)
+    return "\n".join(GAP.join(w.rjust(n, BLANK) for w, n in zip(line, widths, strict=True)) for line in words)
 
 
 def _spelled(count: Fraction | float) -> str:
@@ -192,7 +192,7 @@ def _pyramid(told: _Told, at: float) -> Diagram:
         shown = _filled(told.stages[k].n_points, at - k) if k else np.ones(told.stages[k].n_points)
         boxes.extend(_row(told, k, at, shown))
         links.extend(_strokes(told, k, shown))
-        name = f"average {k} {times(rows(told.stages[: k + 1])[1])}" if k else "split"
+        name = f"average\u00a0{k}, {times(rows(told.stages[: k + 1])[1])}" if k else "split"
         notes.append(Note(k / 2 - 0.6, -k, name, told.theme.muted, "right", float(shown[0])))
     cells = (-1.6, 0.5 - len(told.stages), told.stages[0].n_points - 0.45, 0.5)
     links.sort(key=lambda link: link.width)  # what is lit lies over the rest

@@ -73,7 +73,7 @@ def overlay(
     live = cameras or [None] * len(picture.panes)
     for k, (pane, area, camera) in enumerate(zip(picture.panes, areas, live, strict=True)):
         if k in spreads and isinstance(pane.content, Diagram):
-            found.extend(dotted.drawn(pane.content, spreads[k], picture.stroke))
+            found.extend(dotted.drawn(pane.content, spreads[k], picture.stroke, picture.background))
         elif isinstance(pane.content, Diagram):
             found.extend(_diagram(pane.content, area, picture, height))
         else:
@@ -341,7 +341,8 @@ def _spelled(diagram: Diagram, cells: _Cells, unit: float, scale: float) -> list
     for b in diagram.boxes:
         k, size = choice[b.group]
         text = b.texts[min(k, len(b.texts) - 1)] if size else ""
-        found.append((text, min(1.4 * size, BOX * unit * scale, _room(b, text, cells)) if size else 0.0))
+        comfortable = max(size, 0.88 * _room(b, text, cells))
+        found.append((text, min(1.4 * size, BOX * unit * scale, comfortable) if size else 0.0))
     return found
 
 
