@@ -2,11 +2,15 @@
 
 from collections.abc import Iterator
 
-from lessons.script import Beat, Look, fragment, lesson, play, show
+import numpy as np
+
+from lessons.script import Beat, Look, at_rest, fragment, lesson, play, show, side_by_side
 from subdivision import Role, shapes, trace
 from subdivision.schemes import QUAD_CENTROID, tensor_product
 
 LOOK = Look(azimuth=-65.0, elevation=60.0)
+WIDE = Look(azimuth=-65.0, elevation=60.0, zoom=0.6)
+"""Far enough to see all that a stencil reads."""
 
 
 @lesson("Figure 12  Bicubic surfaces", section="3.1 Quads: centroid averaging",
@@ -17,6 +21,9 @@ def figure_12_bicubic() -> Iterator[Beat]:
     topology, centroids, geometry = told.stages
     array = trace(tensor_product(3, 3), shapes.net(4, 4)).whole
     inside = array.topology.n_vertices
+    by_array = [array.stencil(i).weights.tolist() for i in range(inside)]
+    by_faces = [told.whole.stencil(int(i)).weights.tolist()
+                for i in np.flatnonzero(~told.mesh_at(3).surface.on_boundary)]
     edge_point = topology.topology.origin[1]  # the first face's first edge
     vertex = 0
 
@@ -31,9 +38,15 @@ def figure_12_bicubic() -> Iterator[Beat]:
                look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$",
                notes="All centroids come from the mesh before it moves, and all vertices move together.",
                claim=geometry.moves and inside == 25)
-    yield show(told, geometry, "A vertex reads nine points: 36, 6 and 1 sixty-fourths.", look=LOOK, span=3,
+    yield show(told, geometry, "A vertex reads nine points: 36, 6 and 1 sixty-fourths.", look=WIDE, span=3,
                stencil=told.whole.stencil(vertex), formula=r"$\dfrac{36\,V + 6 \sum E_i + \sum F_i}{64}$",
                claim=sorted(64 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 6, 6, 6, 6, 36])
-    yield show(told, geometry, "An edge point reads six: 6 and 1 sixteenths.", look=LOOK, span=3,
+    yield show(told, geometry, "An edge point reads six: 6 and 1 sixteenths.", look=WIDE, span=3,
                stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{6\,(A+B) + C + D + E + F}{16}$",
                claim=sorted(16 * told.whole.stencil(edge_point).weights) == [1, 1, 1, 1, 6, 6])
+    yield side_by_side("Topology keeps the shape, geometry smooths it: together they are one level of the bicubic "
+                       "surface.", *at_rest(told, (0, "(a) Original control points"), (1, "(b) New topology"),
+                                            (3, "(c) New geometry")), look=LOOK,
+                       notes="Two rounds of centroids are the two averages a cubic needs beyond the bilinear surface: "
+                       "Figure 18.",
+                       claim=sorted(sorted(row) for row in by_array) == sorted(sorted(row) for row in by_faces))

@@ -2,11 +2,15 @@
 
 from collections.abc import Iterator
 
-from lessons.script import Beat, Look, fragment, lesson, play, show
+import numpy as np
+
+from lessons.script import Beat, Look, at_rest, fragment, lesson, play, show, side_by_side
 from subdivision import Role, shapes, trace
 from subdivision.schemes import TRIANGLE_CENTROID
 
 LOOK = Look(azimuth=-62.0, elevation=58.0)
+WIDE = Look(azimuth=-62.0, elevation=58.0, zoom=0.62)
+"""Far enough to see all that a stencil reads."""
 
 
 @lesson("Figure 22  Quartic surfaces", section="4.1 Triangles: centroid averaging",
@@ -31,8 +35,15 @@ def figure_22_quartic() -> Iterator[Beat]:
     yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of its own weighted centroids.",
                look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves)
     yield show(told, geometry, "A new edge point takes three eighths of each end, one eighth of each opposite corner.",
-               look=LOOK, span=3, stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{3\,(A+B) + C + D}{8}$",
+               look=WIDE, span=3, stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{3\,(A+B) + C + D}{8}$",
                claim=sorted(8 * told.whole.stencil(edge_point).weights) == [1, 1, 3, 3])
-    yield show(told, geometry, "A vertex keeps ten sixteenths and takes one of each neighbour.", look=LOOK, span=3,
+    yield show(told, geometry, "A vertex keeps ten sixteenths and takes one of each neighbour.", look=WIDE, span=3,
                stencil=told.whole.stencil(vertex), formula=r"$\dfrac{10\,V + \sum N_i}{16}$",
                claim=sorted(16 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 1, 1, 10])
+    yield side_by_side("Topology keeps the shape, geometry smooths it: together they are one level of the quartic "
+                       "surface.", *at_rest(told, (0, "(a) Original control points"), (1, "(b) New topology"),
+                                            (3, "(c) New geometry")), look=LOOK,
+                       notes="The lecture asks the reader to lay Figure 21's stencil over Figure 6's points; the "
+                       "result is Figure 7.",
+                       claim=all(sorted(16 * told.whole.stencil(int(v)).weights) in ([1] * 6 + [10], [2, 2, 6, 6])
+                                 for v in np.flatnonzero(~told.mesh_at(3).surface.on_boundary)))

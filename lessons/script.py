@@ -65,6 +65,8 @@ class View:
         Laid over this one in dashes: its net only.
     reading : Mesh -> str, or (Mesh, Mesh) -> str with a view laid over
         A measurement of what the pane shows, live, written below it.
+    isophotes : bool
+        Draw no net but the lines along which the surface leans equally far from the light.
     """
 
     trace: Trace
@@ -78,6 +80,7 @@ class View:
     marks: tuple[tuple[int, str], ...] = ()
     over: "View | None" = None
     reading: Reading | None = None
+    isophotes: bool = False
 
     def at(self, progress: float) -> float:
         """The stage position at ``progress`` (0..1) through the beat."""
@@ -275,11 +278,14 @@ def side_by_side(text: str, *views: View, **said: Unpack[Said]) -> Beat:
     return Beat(text, views, **_split(said)[0])
 
 
+def at_rest(trace: Trace, *panes: tuple[int, str]) -> tuple[View, ...]:
+    """The control object after some numbers of stages as panes, each with its title above it."""
+    return tuple(View(trace, at, at, title=title) for at, title in panes)
+
+
 def levels(trace: Trace, *which: int) -> tuple[View, ...]:
     """The control object and some levels of it as panes, each with its name above it."""
-    places = [trace.begins(level) for level in which]
-    names = [f"level {level}" if level else "control points" for level in which]
-    return tuple(View(trace, at, at, title=name) for at, name in zip(places, names, strict=True))
+    return at_rest(trace, *((trace.begins(k), f"level {k}" if k else "control points") for k in which))
 
 
 def fragment(mesh: Mesh) -> Mesh:

@@ -25,7 +25,7 @@ def test_the_engine_says_what_its_comment_says():
 
 def test_the_example_is_a_lesson_whose_claims_hold_and_whose_lines_fit():
     (code,) = (each for each in CODE if "@lesson" in each)
-    example = run(code)["figure_24_octahedron"]
+    example = run(code)["icosahedron"]
     assert [beat.text for beat in example.beats if not beat.claim] == []
     assert max(map(len, code.splitlines())) <= 120
 

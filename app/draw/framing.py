@@ -6,8 +6,9 @@ import numpy as np
 
 from app.draw.picture import Camera
 from lessons.script import Look
-from subdivision import Trace
+from subdivision import Mesh, Trace
 from subdivision.arrays import Floats
+from subdivision.rows import shown_faces
 
 FRAME = 1.4
 """Width to height of the part of a pane that the control object fills; wider panes have room beside it."""
@@ -21,10 +22,16 @@ FLAT_FRAME = 1.55
 FILLED = 0.86
 """How much of the frame."""
 
+RING = 1.3
+"""How far round a fragment the camera sees."""
+
 
 def camera(trace: Trace, look: Look) -> Camera:
-    """A camera that sees the whole control object in the direction of ``look``; it ignores the stage on purpose."""
-    points = trace.control.points
+    """A camera that sees the whole control object in the direction of ``look``; it ignores the stage on purpose.
+
+    Of a fragment it sees what is not hidden, and something of the faint ring.
+    """
+    points = _looked_at(trace.control)
     centre = (points.min(axis=0) + points.max(axis=0)) / 2
     radius = max(float(np.linalg.norm(points - centre, axis=1).max()), 1e-9)
     azimuth, elevation = np.radians(look.azimuth), np.radians(look.elevation)
@@ -36,12 +43,21 @@ def camera(trace: Trace, look: Look) -> Camera:
     return _framed(Camera(centre + 4 * radius * towards, centre, up), points, look.zoom)
 
 
+def _looked_at(control: Mesh) -> Floats:
+    """(n, 3): the points that must be seen."""
+    if not control.topology.hidden.any():
+        return control.points
+    shown = control.points[np.unique(shown_faces(control.topology)[1])]
+    middle = shown.mean(axis=0)
+    return np.asarray(middle + RING * (shown - middle))
+
+
 def _framed(camera: Camera, points: Floats, zoom: float) -> Camera:
     """The camera moved sideways and back until the points fill the frame, but for a margin."""
     for _ in range(6):
         seen = camera.project(points, FRAME, 1.0)
         low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
-        fill = float(((high - low) / (FRAME, 1.0)).max()) * zoom / FILLED
+        fill = float(((high - low) / (FRAME, 1.0)).max()) / (FILLED * zoom)
         ahead = camera.focal - camera.position
         right = np.cross(ahead, camera.up) / np.linalg.norm(ahead)
         visible = 2 * float(np.linalg.norm(ahead)) * np.tan(np.radians(camera.angle) / 2)

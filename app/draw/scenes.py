@@ -25,7 +25,7 @@ CROWDED = 0.17
 CORNERED = 0.55
 """How much smaller helpers are, and without a ring, where a face has one for every corner."""
 
-MANY = 240
+MANY = 220
 """Beyond so many points on a whole picture only extraordinary vertices are marked once a level is done."""
 
 MANY_ON_A_CURVE = 30
@@ -34,7 +34,7 @@ MANY_ON_A_CURVE = 30
 APART = 0.6
 """Size of an extraordinary vertex marked alone, relative to an original point of the control object."""
 
-OPEN, DENSE, SHUT = 800, 4000, 60_000
+OPEN, DENSE, SHUT = 800, 4000, 28_000
 """Edges on a whole picture: up to the first number they have their full width, up to the second their full colour;
 beyond the last only the outline is drawn, and the surface speaks for itself."""
 
@@ -121,10 +121,12 @@ def _shown_vertices(t: Connectivity) -> Mask:
 
 def _shown_helpers(t: Connectivity, helpers: int) -> Mask:
     """A helper belongs to the face, the edge or the corner that has its number; edges may come after faces."""
-    edges = _shown_vertices(t)[t.ends].all(axis=1)
-    for shown in (~t.hidden, edges, np.concatenate([~t.hidden, edges]), shown_corners(t)):
+    edges: Mask = np.asarray(_shown_vertices(t)[t.ends].all(axis=1))
+    faces: Mask = np.asarray(~t.hidden)
+    kinds: tuple[Mask, ...] = (faces, edges, np.concatenate([faces, edges]), shown_corners(t))
+    for shown in kinds:
         if len(shown) == helpers:
-            return np.asarray(shown)
+            return shown
     return np.ones(helpers, dtype=np.bool_)
 
 
@@ -168,7 +170,7 @@ def _strength(t: Connectivity, share: float) -> float:
     """Opacity of the edges within a surface: a close mesh must not blacken it."""
     if not t.n_faces or t.n_edges <= DENSE * share:
         return 1.0
-    return max((DENSE * share / t.n_edges) ** 0.5, 0.26) if t.n_edges < SHUT * share else 0.0
+    return max((DENSE * share / t.n_edges) ** 0.5, 0.26) if t.n_edges < SHUT * share**0.5 else 0.0
 
 
 def _outline(t: Connectivity) -> Mask:
@@ -332,8 +334,9 @@ def _marks(frame: Frame, marks: tuple[tuple[int, str], ...], theme: Theme) -> tu
 
 
 def _laid_over(mesh: Mesh, theme: Theme) -> tuple[Lines, ...]:
-    """Another control object's net, in dashes that show what lies under them."""
-    return (Lines(mesh.points, mesh.topology.ends, theme.ink, 4.0 * theme.stroke, 1.0, dashed=True),)
+    """Another control object's net, in dashes: heavy ones over a surface, so that they tell over the same edges."""
+    width = theme.stroke * (7.5 if mesh.topology.n_faces else 4.0)
+    return (Lines(mesh.points, mesh.topology.ends, theme.ink, width, dashed=True),)
 
 
 def _pointed_out(
@@ -342,7 +345,7 @@ def _pointed_out(
     """The point of a stencil, rays from its contributors, and the exact weight at each of them."""
     stencil = row.stencil
     parents = trace.points[row.stage - row.span][stencil.parents]
-    point = trace.points[row.stage][stencil.point]
+    point = row.place if row.place is not None else trace.points[row.stage][stencil.point]
     weights = np.abs(stencil.weights)
     size = radius * (0.7 + 1.1 * np.sqrt(weights / weights.max()))
     none = np.full(len(parents), -1)

@@ -1,0 +1,52 @@
+"""Figure 13. One level of centroid averaging round an extraordinary vertex of a quad mesh."""
+
+from collections.abc import Iterator
+
+from lessons.script import Beat, Look, at_rest, fragment, lesson, play, show, side_by_side
+from subdivision import Role, shapes, trace
+from subdivision.schemes import QUAD_CENTROID
+
+LOOK = Look(azimuth=-70.0, elevation=58.0)
+
+
+@lesson("Figure 13  Extraordinary vertex", section="3.1 Quads: centroid averaging",
+        ours="The faint ring: the lecture draws the quads round the vertex, but their outer points need more faces.",
+        colours={Role.EDGE: "yellow", Role.FACE: "green", Role.CENTROID: "blue", Role.MOVED: "black"},
+        knobs={"valence": range(3, 13)})
+def figure_13_extraordinary_vertex(valence: int = 6) -> Iterator[Beat]:
+    n = valence
+    told = trace(QUAD_CENTROID, fragment(shapes.quad_fan(n, rings=2)))
+    topology, centroids, geometry = told.stages
+    alone = trace(QUAD_CENTROID, shapes.quad_fan(n))
+    before, after = ((t.n_vertices, t.n_edges, t.n_faces) for t in (alone.control.topology, alone.topology_at(3)))
+    inside = ~told.mesh_at(1).surface.on_boundary
+    row = told.whole.stencil(0)
+    kind = "An ordinary vertex" if n == 4 else "An extraordinary vertex"
+    marks = ((0, f"n = {n}"),)
+
+    yield show(told, None, f"(a) {kind}: {n} quads meet at it" + ("." if n == 4 else ", not four."), look=LOOK,
+               marks=marks, notes="The valence is a knob: turn it to 4 and everything below is the bicubic case.",
+               claim=told.control.topology.valence[0] == n and before == (2 * n + 1, 3 * n, n))
+    yield play(told, topology, "(b) New topology: a point on every edge and every face. Each new one has valence four.",
+               look=LOOK, marks=marks,
+               notes="An edge point lies between two faces, a face point joins the midpoints of its four edges. Old "
+               "valences do not change, so no new extraordinary vertex can appear.",
+               claim=after == (6 * n + 1, 10 * n, 4 * n) and not topology.moves and topology.topology.valence[0] == n
+               and set(topology.topology.valence[topology.born][inside[topology.born]]) == {4})
+    yield play(told, centroids, "Mark the centroid of every small face: the {centroid} helpers, not vertices.",
+               look=LOOK, marks=marks, claim=len(centroids.born) == topology.topology.n_faces)
+    yield play(told, geometry, f"(c) New geometry: the middle moves to the centroid of {n} helpers, all others of "
+               "four.", look=LOOK, marks=marks, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
+               notes="The pale helpers show what every vertex is now amid. The lecture does not colour the last "
+               "position.",
+               claim=geometry.matrix[[0]].nnz == n and all(geometry.matrix[[v]].nnz == 4 for v in topology.born[:n]))
+    yield show(told, geometry, "In one formula: the vertex keeps 9/16, its neighbours share 6/16, the corners across "
+               "1/16.", look=LOOK, span=3, stencil=row,
+               formula=r"$\dfrac{9}{16} V + \dfrac{6}{16n} \sum E_i + \dfrac{1}{16n} \sum F_i$",
+               notes="This is the simple vertex stencil of Figure 20.",
+               claim=sorted(16 * n * row.weights) == [1.0] * n + [6.0] * n + [9.0 * n])
+    yield side_by_side("One level: the vertex is extraordinary as before, and farther from any other." if n != 4 else
+                       "One level: valence four everywhere, so this is the bicubic case.",
+                       *at_rest(told, (0, f"(a) {kind.split(' ', 1)[1].capitalize()}"), (1, "(b) New topology"),
+                                (3, "(c) New geometry")),
+                       look=LOOK, claim=geometry.topology.valence[0] == n)
