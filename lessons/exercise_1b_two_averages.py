@@ -23,6 +23,7 @@ def exercise_1b_two_averages(w_s: int = 1, w_t: int = 1) -> Iterator[Beat]:
     last = v_first.stages[-1]
     number = as_grid(net.topology).numbers
     four = [int(number[2 + i, 2 + j]) for i, j in ((0, 0), V, w, (V[0] + w_s, V[1] + w_t))]
+    names = tuple(zip(four, ("k", "k+v", "k+w", "k+v+w"), strict=True))
     new = as_grid(v_first.whole.topology).numbers[2 - max(-w_s, 0), 2]  # passes drop what has no partner in front
     row = v_first.whole.stencil(int(new))
     box = box_spline(THREE_DIRECTION_QUARTIC)
@@ -33,8 +34,7 @@ def exercise_1b_two_averages(w_s: int = 1, w_t: int = 1) -> Iterator[Beat]:
         return View(v_first, start, stop, title=V_FIRST), View(w_first, start, stop, title=W_FIRST)
 
     yield show(v_first, None, f"A net, and two vectors: v = ({V[0]},{V[1]}) and w = ({w_s},{w_t}).", look=LOOK,
-               marks=tuple(zip(four, ("k", "k+v", "k+w", "k+v+w"), strict=True)),
-               notes="Turn the knobs for another w; what follows holds for all of them.",
+               marks=names, notes="Turn the knobs for another w; what follows holds for all of them.",
                claim=len(set(four)) == 4)
     yield side_by_side("Left: average each point with its neighbour along v. Right: along w.", *both(0, 1), look=LOOK,
                        formula=r"$\dfrac{U_k + U_{k+v}}{2} \qquad \dfrac{U_k + U_{k+w}}{2}$",
@@ -45,11 +45,12 @@ def exercise_1b_two_averages(w_s: int = 1, w_t: int = 1) -> Iterator[Beat]:
     yield show(v_first, last, "Lay one over the other, in dashes. No point differs.", look=LOOK,
                over=View(w_first, 2, 2), reading=difference, formula=r"$A_w A_v = A_v A_w$",
                claim=same_rows(v_first, w_first), poster=True)
-    yield show(v_first, last, "Why? Either way a point is the mean of four: k, k+v, k+w and k+v+w.", look=LOOK,
-               stencil=row, span=2, over=View(v_first, 0, 0),
-               formula=r"$\dfrac{U_k + U_{k+v} + U_{k+w} + U_{k+v+w}}{4}$",
-               notes="The formula stays the same when v and w change places; that is the proof.",
-               claim={p: str(weight) for p, weight in row.terms} == dict.fromkeys(four, "1/4"))
+    yield side_by_side("Why? Either way a point is the mean of four: k, k+v, k+w and k+v+w.",
+                       View(v_first, 2, 2, title="after both averages", stencil=row, span=2),
+                       View(v_first, 0, 0, title="before", marks=names), look=LOOK,
+                       formula=r"$\dfrac{U_k + U_{k+v} + U_{k+w} + U_{k+v+w}}{4}$",
+                       notes="The formula stays the same when v and w change places; that is the proof.",
+                       claim={p: str(weight) for p, weight in row.terms} == dict.fromkeys(four, "1/4"))
     yield side_by_side("So the averages of a box spline may come in any order: these four, or these four in reverse.",
                        View(forwards, 0, end, title=order(forwards)), View(backwards, 0, end, title=order(backwards)),
                        look=LOOK, claim=order(forwards).split(", ") == order(backwards).split(", ")[::-1])

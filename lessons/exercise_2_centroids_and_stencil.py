@@ -9,7 +9,7 @@ from subdivision import Stencil, Trace, shapes, trace
 from subdivision.exact import Row, add_rows
 from subdivision.schemes import QUAD_CENTROID
 
-LOOK = Look(azimuth=-70.0, elevation=58.0, zoom=1.3)
+LOOK = Look(azimuth=-70.0, elevation=58.0)
 VERTEX = 0
 
 

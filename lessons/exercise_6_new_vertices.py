@@ -10,7 +10,7 @@ from subdivision import Trace, shapes, trace
 from subdivision.rows import shown_faces
 from subdivision.schemes import QUAD_CENTROID, TRIANGLE_CENTROID
 
-LOOK = Look(azimuth=-80.0, elevation=62.0, zoom=1.05)
+LOOK = Look(azimuth=-80.0, elevation=62.0)
 CENTRE = 0
 ORDINARY = (4, 6)
 

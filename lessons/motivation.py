@@ -44,19 +44,21 @@ def motivation() -> Iterator[Beat]:
                        look=FLAT, claim=sharpest(curve.mesh_at(6)) < sharpest(curve.mesh_at(4)) / 1.8)
     yield side_by_side("Left a set that is rough at every size, right a curve that is smooth.", *both(6, 10), look=FLAT,
                        poster=True, formula=r"$C_n \rightarrow C_\infty = W(C_\infty) \qquad P_n \rightarrow P_\infty$",
-                       notes="The fractal is the only closed and bounded set that its rule leaves as it is; see Barnsley, "
-                       "Fractals Everywhere. The curve is a cubic B-spline, twice differentiable.",
-                       claim=triangles[5].n_faces == 3**5 and sharpest(curve.mesh_at(10)) < sharpest(curve.mesh_at(8)) / 1.9)
+                       notes="The fractal is the one closed and bounded set, but for the empty one, that its rule "
+                       "leaves as it is; see Barnsley, Fractals Everywhere. The curve is a cubic B-spline.",
+                       claim=triangles[5].n_faces == 3**5
+                       and sharpest(curve.mesh_at(10)) < sharpest(curve.mesh_at(8)) / 1.9)
     yield from four_reasons()
 
 
 def four_reasons() -> Iterator[Beat]:
     """Why to care, each with something to look at."""
     hook = without_helpers(trace(lane_riesenfeld(3), shapes.hook(), "topology and geometry", 4))
-    cube = without_helpers(trace(QUAD_CENTROID, shapes.cube(), levels=4))
-    pipe = trace(CATMULL_CLARK, shapes.mug(), levels=3)
+    cube = without_helpers(trace(QUAD_CENTROID, shapes.cube()))
+    plus = without_helpers(trace(QUAD_CENTROID, shapes.plus_sign(), levels=3))
+    mug = trace(CATMULL_CLARK, shapes.mug(), levels=3)
     vertex, polygon = hook.step(0).stencil(1), View(hook, 0, 0)
-    over_its_polygon = [replace(view, over=polygon) for view in levels(hook, 0, 1, 4)]
+    over_its_polygon = [replace(view, over=polygon) for view in levels(hook, 0, 4)]
 
     yield side_by_side("One: a short procedure takes the place of a long formula.", *over_its_polygon, look=FLAT,
                        notes="No knots, no basis functions: split, average, repeat.",
@@ -66,14 +68,14 @@ def four_reasons() -> Iterator[Beat]:
                        View(cube, 2, 2, title="geometry"),
                        claim=[stage.moves for stage in cube.stages[:2]] == [False, True])
     yield side_by_side("Three: it reaches smooth surfaces that no finite list of polynomial pieces describes.",
-                       *levels(cube, 0, 2, 4),
+                       *levels(plus, 0, 1, 3),
                        notes="Ordinary faces are polynomial pieces; round an extraordinary vertex ever smaller ones "
                        "follow each other for ever.",
-                       claim=all(cube.mesh_at(2 * k).surface.extraordinary.sum() == 8 for k in range(5)))
+                       claim=all(plus.mesh_at(2 * k).surface.extraordinary.sum() == 32 for k in range(4)))
     yield side_by_side("Four: any topology will do. A rectangle of control points makes no mug with a handle.",
-                       *levels(pipe, 0, 1, 3), look=Look(azimuth=-60.0, elevation=22.0),
+                       *levels(mug, 0, 1, 3), look=Look(azimuth=-60.0, elevation=22.0),
                        notes="With its sides joined a rectangle is a cylinder or a torus, and nothing else.",
-                       claim=counts(pipe.control.topology).euler == 0)
+                       claim=counts(mug.control.topology).euler == 0)
 
 
 def sharpest(mesh: Mesh) -> float:
