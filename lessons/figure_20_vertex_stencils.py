@@ -42,8 +42,8 @@ def figure_20_vertex_stencils(valence: int = 6) -> Iterator[Beat]:
                        and all(sum(weight for _, weight in row.terms) == 1 for row in (simple, clark)))
     yield side_by_side("At valence 4 both are the bicubic stencil: 36, 6 and 1 sixty-fourths.",
                        *(stencil_of(told, 0, f"{name}, n = 4") for told, name in zip(squares, NAMES, strict=True)),
-                       claim=all(64 * w == whole for told in squares for w, whole in
-                                 zip(_weights(told.whole.stencil(0), 4), (36, 6, 1), strict=True)))
+                       claim=all(_weights(told.whole.stencil(0), 4) == tuple(Fraction(w, 64) for w in (36, 6, 1))
+                                 for told in squares))
     yield side_by_side("The same star, raised onto a ball. Face points and edge points: no difference between the two.",
                        *_panes(once, 0, 2), look=ABOVE, claim=np.array_equal(once[0].points[2], once[1].points[2])
                        and np.allclose(np.linalg.norm(dome.points, axis=1), 1))

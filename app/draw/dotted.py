@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.draw.picture import Diagram, Dot, Shape
+from app.draw.picture import Colour, Diagram, Dot, Shape
 from app.draw.primitives import LEAST, Area, Mark, Primitive, Stroke, Text
 from app.draw.type import measure
 from subdivision.arrays import Floats, Mask
@@ -22,6 +22,12 @@ GAP = 8.0
 
 REACH = {Shape.CLEAR: 1.73}
 """How far a dot reaches, relative to its size, where that is not 1."""
+
+TALL, LOW = 0.8, 0.09
+"""How far fractions reach above and below their baseline, relative to their size."""
+
+FURTHER = 60.0
+"""How much further off their dot words may stand to be free of strokes, in logical points."""
 
 ALONG = np.linspace(0.0, 1.0, 41)[:, None, None]
 """The places along a stroke that words keep off."""
@@ -50,20 +56,20 @@ def spread(diagram: Diagram, area: Area, unit: float, most: float = LARGEST) -> 
 
     ``unit`` pixels are a logical point.
     """
-    sizes = np.arange(most, LEAST, -1.0).tolist()
-    crossing: list[Spread] = []
-    for size in [*sizes, LEAST]:
-        fit = _spread(diagram, area, unit, size)
+    found: list[tuple[int, Spread]] = []
+    for size in [*np.arange(most, LEAST, -1.0).tolist(), LEAST]:
+        fit = _aside(diagram, _spread(diagram, area, unit, size))
+        crossed = int(_crossed(diagram, fit).sum())
         if _is_clear(fit):
-            if not _crosses(diagram, fit):
-                return fit
-            crossing.append(fit)
-    return crossing[0] if crossing else fit
+            found.append((crossed, fit))
+            if crossed == 0:
+                break
+    return min(found, key=lambda each: each[0])[1] if found else fit
 
 
-def drawn(diagram: Diagram, fit: Spread, stroke: float) -> list[Primitive]:
+def drawn(diagram: Diagram, fit: Spread, stroke: float, background: Colour) -> list[Primitive]:
     """The links, ``stroke`` times as wide as they say, up to where clear dots begin; the dots and their words."""
-    return [*_strokes(diagram, fit, stroke * fit.unit), *_marks(diagram, fit)]
+    return [*_strokes(diagram, fit, stroke * fit.unit), *_marks(diagram, fit, background)]
 
 
 def nearest(diagram: Diagram, fit: Spread, x: float, y: float) -> Dot | None:
@@ -79,7 +85,8 @@ def _strokes(diagram: Diagram, fit: Spread, width: float) -> list[Primitive]:
     found: list[Primitive] = []
     for link in diagram.links:
         ends = np.array(fit.start) + fit.cell * np.array([(link.x0, link.y0), (link.x1, link.y1)])
-        whole = Stroke(*map(float, ends.ravel()), link.colour, link.width * width, link.opacity)
+        x0, y0, x1, y1 = map(float, ends.ravel())
+        whole = Stroke(x0, y0, x1, y1, link.colour, link.width * width, link.opacity)
         pieces = [whole]
         for k in clear:
             pieces = [piece for each in pieces for piece in _outside(each, fit.at[k], float(fit.reach[k]))]
@@ -87,15 +94,15 @@ def _strokes(diagram: Diagram, fit: Spread, width: float) -> list[Primitive]:
     return found
 
 
-def _marks(diagram: Diagram, fit: Spread) -> list[Primitive]:
+def _marks(diagram: Diagram, fit: Spread, background: Colour) -> list[Primitive]:
     """The dots and their words."""
     found: list[Primitive] = []
     for dot, (x, y), reach, room in zip(diagram.dots, fit.at, fit.reach, fit.words, strict=True):
         found.append(Mark(float(x), float(y), dot.shape, float(reach) / REACH.get(dot.shape, 1.0), dot.colour))
         if dot.text:
             size = fit.size * fit.unit
-            ascent = measure(dot.text, size)[1]
-            found.append(Text(float(room[0]), float(room[1]) + ascent, dot.text, size, dot.colour))
+            x, y = float(room[0]), float(room[1]) + TALL * size
+            found.append(Text(x, y, dot.text, size, dot.colour, halo=background))
     return found
 
 
@@ -120,8 +127,7 @@ def _spread(diagram: Diagram, area: Area, unit: float, size: float) -> Spread:
 
 def _off(dots: tuple[Dot, ...], clear: Floats, size: float) -> Floats:
     """(n_dots, 4): the room for the words of each dot, from its middle, no nearer to it than ``clear``."""
-    rooms = [measure(d.text, size) if d.text else (0.0, 0.0, 0.0) for d in dots]
-    half = np.array([(wide, up + down) for wide, up, down in rooms]) / 2
+    half = np.array([(measure(d.text, size)[0], (TALL + LOW) * size) if d.text else (0.0, 0.0) for d in dots]) / 2
     way = np.array([d.way for d in dots])
     near, far = np.zeros(len(dots)), clear + np.linalg.norm(half, axis=1)
     for _ in range(20):  # halving: the place nearest to the dot that is clear of it
@@ -141,24 +147,40 @@ def _cell(places: Floats, low: Floats, high: Floats, room: float) -> float:
 
 def _is_clear(fit: Spread) -> bool:
     """Whether no words meet a dot or other words."""
-    words = fit.words[_written(fit)]
-    near = np.clip(fit.at[None], words[:, None, :2], words[:, None, 2:])
-    far = np.linalg.norm(near - fit.at[None], axis=2)
-    gap = 0.5 * GAP * fit.unit
+    words, gap = fit.words[_written(fit)], 0.5 * GAP * fit.unit
     low, high = words[:, :2] - gap, words[:, 2:] + gap
     meet = ((low[:, None] < high[None]) & (low[None] < high[:, None])).all(axis=2)
-    return bool((far > fit.reach[None] + gap).all() and meet.sum() == len(words))
+    return not _meets(fit).any() and bool(meet.sum() == len(words))
 
 
-def _crosses(diagram: Diagram, fit: Spread) -> bool:
-    """Whether a link runs through words."""
+def _aside(diagram: Diagram, fit: Spread) -> Spread:
+    """Words that a link runs through stand further off their dot, if that frees them."""
+    way = np.array([d.way for d in diagram.dots])
+    crossed, words = _crossed(diagram, fit), fit.words.copy()
+    for step in np.arange(1.0, FURTHER, 2.0) * fit.unit:
+        moved = replace(fit, words=fit.words + step * np.hstack([way, way]))
+        free = crossed & ~_crossed(diagram, moved) & ~_meets(moved)
+        words[free] = moved.words[free]
+        crossed &= ~free
+    return replace(fit, words=words)
+
+
+def _meets(fit: Spread) -> Mask:
+    """(n_dots,) bool: words over a dot."""
+    near = np.clip(fit.at[None], fit.words[:, None, :2], fit.words[:, None, 2:])
+    far = np.linalg.norm(near - fit.at[None], axis=2)
+    return np.asarray(_written(fit) & (far < fit.reach + 0.5 * GAP * fit.unit).any(axis=1))
+
+
+def _crossed(diagram: Diagram, fit: Spread) -> Mask:
+    """(n_dots,) bool: words that a link runs through."""
     if not diagram.links:
-        return False
+        return np.zeros(len(diagram.dots), dtype=np.bool_)
     ends = np.array(fit.start) + fit.cell * np.array([[(k.x0, k.y0), (k.x1, k.y1)] for k in diagram.links])
     along = ((1 - ALONG) * ends[:, 0] + ALONG * ends[:, 1]).reshape(-1, 1, 2)
-    words, gap = fit.words[_written(fit)], 0.25 * GAP * fit.unit
-    inside = (along > words[None, :, :2] - gap) & (along < words[None, :, 2:] + gap)
-    return bool(inside.all(axis=2).any())
+    gap = 0.25 * GAP * fit.unit
+    inside = (along > fit.words[None, :, :2] - gap) & (along < fit.words[None, :, 2:] + gap)
+    return np.asarray(_written(fit) & inside.all(axis=2).any(axis=0))
 
 
 def _written(fit: Spread) -> Mask:

@@ -18,11 +18,15 @@ DISC, DIAMOND = 15.0, 19.0
 
 STROKE = 3.6
 
-LARGEST = 250.0
+LARGEST = 420.0
 """The longest that an edge is drawn, in logical points."""
 
 NEAR = 0.1
 """So near to the new point, relative to an edge, there is no outwards."""
+
+
+ASIDE = 1e-3
+"""How little it counts, beside the room, that words stand to the right and rather below than above."""
 
 
 def stencil(trace: Trace, row: Pointed, theme: Theme) -> Diagram:
@@ -36,7 +40,7 @@ def stencil(trace: Trace, row: Pointed, theme: Theme) -> Diagram:
         for p, (x, y), text, way in zip(row.stencil.parents, places, spelled(row.stencil), ways, strict=True)
     ]
     dots.append(Dot(0.0, 0.0, Shape.CLEAR, DIAMOND, ink, row.stencil.point, row.stage))
-    strokes = tuple(Link(*map(float, places[pair].ravel()), theme.edge, width=STROKE) for pair in links)
+    strokes = tuple(_link(places[a], places[b], theme) for a, b in links)
     around = np.vstack([places, np.zeros(2)])
     return Diagram((*around.min(axis=0), *around.max(axis=0)), (), strokes, (), tuple(dots), largest=LARGEST)
 
@@ -57,6 +61,10 @@ def spelled(row: Stencil) -> list[str]:
     return [f"≈{float(w):.4f}" if "." in word else word for word, (_, w) in zip(words, row.terms, strict=True)]
 
 
+def _link(a: Floats, b: Floats, theme: Theme) -> Link:
+    return Link(float(a[0]), float(a[1]), float(b[0]), float(b[1]), theme.edge, width=STROKE)
+
+
 def _edges(trace: Trace, row: Pointed) -> Indices:
     """(n_links, 2) int: edges of the mesh between two contributors, by their place in the row."""
     ends, parents = trace.topology_at(row.stage - row.span).ends, row.stencil.parents
@@ -75,13 +83,16 @@ def _places(trace: Trace, row: Pointed, links: Indices) -> Floats:
 
 
 def _way(places: Floats, links: Indices, k: int) -> tuple[float, float]:
-    """Where the weight of contributor ``k`` stands: outwards; at the new point between two edges, to the right."""
+    """Where the weight of contributor ``k`` stands: outwards; at the new point where there is most room."""
     x, y = places[k]
     far = float(np.hypot(x, y))
     if far > NEAR:
         return float(x) / far, float(y) / far
     ends = links[(links == k).any(axis=1)].sum(axis=1) - k
+    if not len(ends):
+        return 1.0, 0.0
     angles = np.sort(np.arctan2(places[ends, 1], places[ends, 0]))
-    between = (angles + np.diff(angles, append=angles[0] + 2 * np.pi) / 2 + np.pi) % (2 * np.pi) - np.pi
-    angle = between[np.argmin(np.abs(between - 1e-3))] if len(between) else 0.0
+    gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
+    between = (angles + gaps / 2 + np.pi) % (2 * np.pi) - np.pi
+    angle = between[np.argmax(gaps - ASIDE * np.abs(between - ASIDE))]
     return float(np.cos(angle)), float(np.sin(angle))
