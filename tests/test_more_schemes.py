@@ -16,6 +16,7 @@ from subdivision.schemes import ZWART_POWELL, box_spline, lane_riesenfeld, tenso
 from subdivision.schemes.chaikin import CHAIKIN
 from subdivision.schemes.doo_sabin import DOO_SABIN, DOO_SABIN_MEAN
 from subdivision.schemes.four_point import Ends, four_point
+from subdivision.schemes.kobbelt import KOBBELT, edge_points, face_points, kobbelt
 from subdivision.schemes.mid_edge import MID_EDGE
 from subdivision.schemes.modified_butterfly import MODIFIED_BUTTERFLY
 from subdivision.schemes.sqrt3 import SQRT3
@@ -541,3 +542,74 @@ def test_the_butterfly_says_what_it_does_not_do() -> None:
         MODIFIED_BUTTERFLY.step(Topology.from_faces([[0, 1, 2], [0, 2, 1]]))
     with pytest.raises(TopologyError, match="must be a triangle"):
         MODIFIED_BUTTERFLY.step(shapes.cube().topology)
+
+
+QUADRILATERAL = {name: make for name, make in CLOSED.items() if make().surface.is_quadrilateral}
+OPEN_QUADS = {"sheet": shapes.quad_sheet, "fan": shapes.quad_fan, "fan of 3": lambda: shapes.quad_fan(3, rings=2)}
+all_quads = pytest.mark.parametrize(
+    "make", [*QUADRILATERAL.values(), *OPEN_QUADS.values()], ids=[*QUADRILATERAL, *OPEN_QUADS]
+)
+
+
+@all_quads
+@pytest.mark.parametrize("scheme", [KOBBELT, kobbelt(Fraction(1, 10))], ids=lambda s: s.name)
+def test_every_telling_of_kobbelts_quads_is_the_same_matrix_and_it_interpolates(
+    scheme: Scheme, make: Callable[[], Mesh]
+) -> None:
+    mesh = spread(make())
+    t = mesh.surface
+    assert_all_readings_agree(scheme, t)
+    assert_all_readings_agree(scheme, subdivide(mesh, scheme, 1).topology)
+    assert_relabelling_commutes(scheme, mesh)
+    fine = subdivide(mesh, scheme, 3)
+    assert np.abs(fine.points[: t.n_vertices] - mesh.points).max() == 0
+    assert np.abs(limit_points(fine, scheme) - fine.points).max() == 0
+    for level in range(4):
+        assert scheme.faces_after(t, level) == 4**level * t.n_faces
+
+
+@pytest.mark.parametrize("w", [Fraction(1, 16), Fraction(1, 10)])
+def test_kobbelt_on_a_torus_is_the_four_point_scheme_along_s_and_along_t(w: Fraction) -> None:
+    net = Grid(7, 5, True, True)
+    along_s, along_t = (dense(four_point(w), Polyline(n, closed=True)) for n in net.shape)
+    assert same_points(dense(kobbelt(w), net.mesh()), np.kron(along_s, along_t))
+
+
+def test_kobbelt_on_a_sheet_with_sharp_corners_is_the_reflected_four_point_scheme() -> None:
+    mesh = Grid(6, 5).mesh().with_boundary(Boundary.EDGE_AND_CORNER)
+    along_s, along_t = (dense(REFLECTED, Polyline(n)) for n in (6, 5))
+    assert same_points(dense(KOBBELT, mesh), np.kron(along_s, along_t))
+
+
+@pytest.mark.parametrize("n", [3, 4, 5, 6, 7, 12])
+@pytest.mark.parametrize("w", [Fraction(1, 16), Fraction(1, 10)])
+def test_round_an_isolated_extraordinary_vertex_both_directions_make_the_same_face_point(n: int, w: Fraction) -> None:
+    t = shapes.quad_fan(n, rings=5).surface
+    E = edge_points(t, w).assemble().toarray()
+    made = face_points(t, w).assemble() @ E
+    ends, across = t.edge.reshape(-1, 4), t.edge[t.next[t.next]][t.twin].reshape(-1, 4)
+    steps = np.where(np.arange(t.n_vertices) == 0, 0, 9)
+    for _ in range(5):
+        for a, b in (*t.ends, *t.ends[:, ::-1]):
+            steps[a] = min(steps[a], steps[b] + 1)
+    nearest, whole = (steps[t.origin].reshape(-1, 4).min(axis=1), ~t.on_boundary[t.origin].reshape(-1, 4).any(axis=1))
+    for a, b in ((0, 2), (1, 3)):
+        rows = float(1 / 2 + w) * (E[ends[:, a]] + E[ends[:, b]]) - float(w) * (E[across[:, a]] + E[across[:, b]])
+        off = np.abs(rows - made).max(axis=1)
+        assert off[whole & (nearest != 1)].max() < 1e-12
+        assert (off[whole & (nearest == 1)].max() < 1e-12) == (n == 4)
+
+
+@all_quads
+def test_the_outline_of_kobbelts_quads_is_the_four_point_curve(make: Callable[[], Mesh]) -> None:
+    if make().surface.boundary.any():
+        assert_outline(KOBBELT, spread(make()))
+
+
+def test_kobbelt_says_what_it_does_not_do() -> None:
+    with pytest.raises(TopologyError, match="choose another boundary"):
+        KOBBELT.step(literal(shapes.quad_sheet()).topology)
+    with pytest.raises(TopologyError, match="knows no creases"):
+        KOBBELT.step(Topology.from_faces(shapes.cube().surface.loops(), creases={(0, 1): 2.0}))
+    with pytest.raises(TopologyError, match="must be a quadrilateral"):
+        KOBBELT.step(shapes.octahedron().topology)
