@@ -32,13 +32,10 @@ def require_faces(sizes: Indices, origin: Indices, face: Indices, n_vertices: in
             f"face {f} names vertex {origin[bad[0]]}, but there are only {n_vertices} vertices (0 to {n_vertices - 1})",
             faces=[f],
         )
-    order = np.lexsort((origin, face))
-    twice = (np.diff(origin[order]) == 0) & (np.diff(face[order]) == 0)
-    if twice.any():
-        h = int(order[int(np.flatnonzero(twice)[0])])
-        raise TopologyError(
-            f"face {face[h]} visits vertex {origin[h]} twice; remove the repeated corner", faces=[int(face[h])]
-        )
+    visits = np.sort(face * n_vertices + origin)
+    if (twice := np.flatnonzero(np.diff(visits) == 0)).size:
+        f, v = divmod(int(visits[twice[0]]), n_vertices)
+        raise TopologyError(f"face {f} visits vertex {v} twice; remove the repeated corner", faces=[f])
 
 
 def paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Indices, Indices]:

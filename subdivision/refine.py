@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, columns
+from subdivision.arrays import Floats, Indices, columns, frozen, taken
 from subdivision.topology import INFINITELY_SHARP, Topology
 
 
@@ -36,15 +36,14 @@ def quads(t: Topology) -> Topology:
     Half-edge ``h`` becomes the quad ``4h .. 4h + 3`` round the corner it leaves.
     """
     H, V, F, E = t.n_halfedges, t.n_vertices, t.n_faces, t.n_edges
-    h, prev, across, behind = np.arange(H), t.prev, t.twin, t.twin[t.prev]
-    face_point, edge_point = V + t.face, V + F + t.edge
-    k = np.arange(4 * H)
+    h, prev, across, behind = np.arange(H), t.prev, t.twin, taken(t.twin, t.prev)
+    beyond, k = taken(t.next, across), 4 * h
     return Topology(
-        origin=columns(t.origin, edge_point, face_point, edge_point[prev]),
-        next=k - k % 4 + (k + 1) % 4,
-        twin=columns(_child(across, 4 * t.next[across] + 3), 4 * t.next + 2, 4 * prev + 1, _child(behind, 4 * behind)),
-        edge=columns(2 * t.edge + (h <= across), 2 * E + h, 2 * E + prev, 2 * t.edge[prev] + (prev > behind)),
-        face=k // 4,
+        origin=quad_corners(t),
+        next=columns(k + 1, k + 2, k + 3, k),
+        twin=columns(_child(across, 4 * beyond + 3), 4 * t.next + 2, 4 * prev + 1, _child(behind, 4 * behind)),
+        edge=columns(2 * t.edge + (h <= across), 2 * E + h, 2 * E + prev, 2 * taken(t.edge, prev) + (prev > behind)),
+        face=np.repeat(h, 4),
         n_vertices=V + F + E,
         edge_sharpness=_halves(t, inner=H),
         vertex_sharpness=np.r_[worn(t.vertex_sharpness), np.zeros(F + E)],
@@ -59,16 +58,16 @@ def triangles(t: Topology) -> Topology:
     of the central triangle of its face.
     """
     H, V, E = t.n_halfedges, t.n_vertices, t.n_edges
-    h, prev, across, behind = np.arange(H), t.prev, t.twin, t.twin[t.prev]
-    middle, k = V + t.edge, np.arange(3 * H)
-    outer_twin = columns(_child(across, 3 * t.next[across] + 2), 3 * H + h, _child(behind, 3 * behind))
-    outer_edge = columns(2 * t.edge + (h <= across), 2 * E + h, 2 * t.edge[prev] + (prev > behind))
+    h, prev, across, behind = np.arange(H), t.prev, t.twin, taken(t.twin, t.prev)
+    beyond, k = taken(t.next, across), 3 * h
+    outer_twin = columns(_child(across, 3 * beyond + 2), 3 * H + h, _child(behind, 3 * behind))
+    outer_edge = columns(2 * t.edge + (h <= across), 2 * E + h, 2 * taken(t.edge, prev) + (prev > behind))
     return Topology(
-        origin=np.r_[columns(t.origin, middle, middle[prev]), middle[prev]],
-        next=np.r_[k - k % 3 + (k + 1) % 3, 3 * H + t.next],
-        twin=np.r_[outer_twin, 3 * h + 1],
-        edge=np.r_[outer_edge, 2 * E + h],
-        face=np.r_[k // 3, H + t.face],
+        origin=triangle_corners(t),
+        next=np.concatenate([columns(k + 1, k + 2, k), 3 * H + t.next]),
+        twin=np.concatenate([outer_twin, 3 * h + 1]),
+        edge=np.concatenate([outer_edge, 2 * E + h]),
+        face=np.concatenate([np.repeat(h, 3), H + t.face]),
         n_vertices=V + E,
         edge_sharpness=_halves(t, inner=H),
         vertex_sharpness=np.r_[worn(t.vertex_sharpness), np.zeros(E)],
@@ -76,8 +75,29 @@ def triangles(t: Topology) -> Topology:
     )
 
 
+def quad_corners(t: Topology) -> Indices:
+    """``quads(t).origin``, and nothing else."""
+    edge_point = t.n_vertices + t.n_faces + t.edge
+    return columns(t.origin, edge_point, t.n_vertices + t.face, taken(edge_point, t.prev))
+
+
+def triangle_corners(t: Topology) -> Indices:
+    """``triangles(t).origin``, and nothing else."""
+    middle = t.n_vertices + t.edge
+    before = taken(middle, t.prev)
+    return np.concatenate([columns(t.origin, middle, before), before])
+
+
 QUADS = Refinement(size=4, faces=lambda t, levels: t.n_halfedges * 4 ** (levels - 1))
 TRIANGLES = Refinement(size=3, faces=lambda t, levels: t.n_faces * 4**levels)
+
+
+def deferred(coarse: Topology, build: Callable[[], Topology], origin: Indices, size: int, n_vertices: int) -> Topology:
+    """A refined mesh with faces of ``size`` of which only the corners are made; ``build`` makes the rest if needed."""
+    n_faces = len(origin) // size
+    known = {} if coarse.hidden.any() else {"hidden": frozen(np.zeros(n_faces, dtype=bool))}
+    sizes = frozen(np.full(n_faces, size))
+    return Topology.deferred(build, origin=frozen(origin), n_vertices=n_vertices, face_sizes=sizes, **known)
 
 
 def worn(sharpness: Floats) -> Floats:

@@ -8,15 +8,15 @@ stored face by face, in loop order, so ``origin`` is also the flat list of corne
 Sharpness belongs to the topology because weights depend on it as they do on valence.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from enum import Enum
 from functools import cached_property
-from typing import Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, Mask, frozen
+from subdivision.arrays import Floats, Indices, Mask, frozen, taken
 from subdivision.manifold import TopologyError, paired, require_faces
 
 INFINITELY_SHARP = 10.0
@@ -68,6 +68,22 @@ class Topology:
         for field in fields(self):
             if field.name != "n_vertices":
                 object.__setattr__(self, field.name, frozen(getattr(self, field.name)))
+
+    @classmethod
+    def deferred(cls, build: Callable[[], Self], **known: Any) -> Self:
+        """What ``build`` makes, made when more is asked of it than the attributes already ``known``."""
+        t = cls.__new__(cls)
+        t.__dict__.update(known, _build=build)
+        return t
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            build = self.__dict__.get("_build")
+            if build is None or name not in self.__dataclass_fields__:
+                raise AttributeError(f"a {type(self).__name__} has no attribute '{name}'")
+            self.__dict__.update(vars(build()) | self.__dict__)
+            return self.__dict__[name]
 
     @classmethod
     def from_faces(
@@ -217,14 +233,13 @@ def _require_single_fans(t: Topology) -> None:
     """
     corners = np.bincount(t.origin, minlength=t.n_vertices)
     bad = t.valence - corners > 1
-    label = np.arange(t.n_halfedges)
-    around = np.where(t.twin[t.prev] >= 0, t.twin[t.prev], np.arange(t.n_halfedges))
-    for _ in range(int(corners.max(initial=1)).bit_length() + 1):
-        label, around = np.minimum(label, label[around]), around[around]
-    label = _smallest_around(t, label)
-    smallest = np.full(t.n_vertices, t.n_halfedges)
-    np.minimum.at(smallest, t.origin, label)
-    apart = label != smallest[t.origin]
+    label, rounds = np.arange(t.n_halfedges), int(corners.max(initial=1)).bit_length() + 1
+    label = _smallest_around(label, taken(t.twin, t.prev), rounds)
+    if t.boundary.any():  # the other way round too, where an open fan stops the first walk
+        label = _smallest_around(label, np.where(t.twin >= 0, taken(t.next, t.twin), -1), rounds)
+    any_of = np.zeros(t.n_vertices, dtype=np.intp)
+    any_of[t.origin] = label
+    apart = label != taken(any_of, t.origin)
     if bad.any() or apart.any():
         v = int(np.flatnonzero(bad)[0]) if bad.any() else int(t.origin[np.flatnonzero(apart)[0]])
         raise TopologyError(
@@ -235,11 +250,11 @@ def _require_single_fans(t: Topology) -> None:
         )
 
 
-def _smallest_around(t: Topology, label: Indices) -> Indices:
-    """Carry the smallest label the other way round too, where an open fan stops the first walk."""
-    around = np.where(t.twin >= 0, t.next[t.twin], np.arange(t.n_halfedges))
-    for _ in range(int(np.bincount(t.origin).max(initial=1)).bit_length() + 1):
-        label, around = np.minimum(label, label[around]), around[around]
+def _smallest_around(label: Indices, around: Indices, rounds: int) -> Indices:
+    """The smallest label along ``around``, which is negative at its ends; ``2 ** rounds`` steps far."""
+    around = np.where(around >= 0, around, np.arange(len(around)))
+    for _ in range(rounds):
+        label, around = np.minimum(label, taken(label, around)), taken(around, around)
     return label
 
 

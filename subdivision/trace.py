@@ -8,6 +8,7 @@ import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, frozen
 from subdivision.manifold import TopologyError
+from subdivision.plan import plan
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step
@@ -22,7 +23,8 @@ class Mesh:
     points: Floats
 
     def __post_init__(self) -> None:
-        points = np.array(self.points, dtype=float)
+        kept = isinstance(self.points, np.ndarray) and not self.points.flags.writeable
+        points = np.array(self.points, dtype=float, copy=None if kept else True)
         if points.shape != (self.topology.n_vertices, 3):
             raise ValueError(f"{self.topology.n_vertices} vertices need points of shape (n, 3), not {points.shape}")
         object.__setattr__(self, "points", frozen(points))
@@ -236,9 +238,10 @@ def trace(scheme: Scheme, control: Mesh, telling: str | None = None, levels: int
 
 
 def subdivide(control: Mesh, scheme: Scheme, levels: int) -> Mesh:
-    """The mesh after ``levels`` steps; only the last level is kept."""
-    topology, points = control.topology, control.points
-    for _ in range(levels):
-        step = scheme.step(topology)
-        topology, points = step.topology, step.apply(points)
-    return Mesh(topology, points)
+    """The mesh after ``levels`` steps; only the last level is kept.
+
+    Faces are numbered as by the stages; so are the vertices, unless there are many levels: ``Plan.numbers``
+    then says where each one is.  For the same mesh with moved points keep the ``plan`` and apply it.
+    """
+    told = plan(control.topology, scheme, levels)
+    return Mesh(told.topology, frozen(told.apply(control.points)))

@@ -5,6 +5,7 @@ the centroids around it [WW02]_.  In stencils: face 1/4; edge 6/16, 1/16; vertex
 6/(16 n), 1/(16 n).  C2 except at the limits of extraordinary vertices, where it is C1.
 """
 
+from fractions import Fraction
 from functools import partial
 
 from subdivision import meshes, refine

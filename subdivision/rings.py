@@ -1,0 +1,257 @@
+"""Faces with the ring of faces round them, sorted into kinds: faces of one kind become the same surface, linearly.
+
+After a step all faces are alike but for the fans round their corners: how many faces there
+are, whether the mesh ends, what is sharp.  A ``Kind`` of face is the fans of its corners; it
+can be unfolded into a small mesh of its own, and found again round every face of that kind.
+"""
+
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from subdivision.arrays import Floats, Indices, Mask
+from subdivision.kernels import is_smooth
+from subdivision.topology import Topology
+
+LARGEST_FAN = 32
+"""Vertices of more faces are too rare, and their rings too large, for a table of their own."""
+
+
+@dataclass(frozen=True)
+class Fan:
+    """What a face sees round one of its corners.
+
+    ``left`` faces follow it counter-clockwise and ``right`` clockwise; round a ``closed`` fan
+    all others are on the left.  ``sharpness`` of the edges begins with the one that follows
+    the corner in the face, goes on counter-clockwise, then clockwise; empty where all are 0.
+    """
+
+    left: int
+    right: int
+    closed: bool
+    sharpness: tuple[float, ...] = ()
+    pinned: float = 0.0
+
+
+@dataclass(frozen=True)
+class RingFace:
+    """A face of the ring: ``turn`` faces to the left (right: negative) round ``corner``; its vertices from there on."""
+
+    corner: int
+    turn: int
+    vertices: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """The fans of the corners of a face, in order."""
+
+    fans: tuple[Fan, ...]
+
+    @cached_property
+    def ring(self) -> tuple[RingFace, ...]:
+        """Every face of the ring once; vertices are numbered from 0, the corners of the face itself first."""
+        numbers: dict[Hashable, int] = {("corner", i): i for i in range(len(self.fans))}
+        return tuple(
+            RingFace(i, turn, tuple(numbers.setdefault(self._joined(name), len(numbers)) for name in names))
+            for i in range(len(self.fans))
+            for turn, names in self._around(i)
+        )
+
+    @cached_property
+    def n_vertices(self) -> int:
+        """How many points the surface of the face is made of."""
+        return 1 + max(max(face.vertices) for face in (*self.ring, RingFace(0, 0, tuple(range(len(self.fans))))))
+
+    @cached_property
+    def creases(self) -> dict[tuple[int, int], float]:
+        """The sharp edges at its corners."""
+        numbers = self._numbers
+        return {
+            (i, numbers[self._joined(name)]): sharpness
+            for i, fan in enumerate(self.fans)
+            for name, sharpness in zip(self._spokes(i), fan.sharpness, strict=False)
+            if sharpness
+        }
+
+    def vertices_around(self, t: Topology, faces: Indices) -> Indices:
+        """(n_vertices, n_faces) int: where these are round each of ``faces``, all of this kind."""
+        k = len(self.fans)
+        found = np.empty((self.n_vertices, len(faces)), dtype=np.intp)
+        for i in range(k):
+            found[i] = t.origin[k * faces + i]
+        seen = k
+        for face in self.ring:
+            if abs(face.turn) == 1 or face.turn == -2:
+                at = k * faces + face.corner
+                at = t.next[t.twin[at]] if face.turn == -2 else at
+            at = t.twin[t.prev[at]] if face.turn > 0 else t.next[t.twin[at]]
+            step = at
+            for vertex in face.vertices[1:]:
+                step = t.next[step]
+                if vertex >= seen:
+                    found[vertex] = t.origin[step]
+                    seen += 1
+        return found
+
+    @cached_property
+    def _numbers(self) -> dict[Hashable, int]:
+        names = [name for i in range(len(self.fans)) for _, names in self._around(i) for name in names]
+        vertices = [vertex for face in self.ring for vertex in face.vertices]
+        corners: dict[Hashable, int] = {("corner", i): i for i in range(len(self.fans))}
+        return corners | {self._joined(name): v for name, v in zip(names, vertices, strict=True)}
+
+    def _around(self, i: int) -> Iterator[tuple[int, list[Hashable]]]:
+        """The faces round corner ``i``; the one on the right is left to the next corner, which has it on the left."""
+        fan = self.fans[i]
+        quad = len(self.fans) == 4
+        for j in range(1, fan.left + (not fan.closed)):
+            opposite = [self._opposite(i, j)] if quad else []
+            yield j, [("corner", i), self._left(i, j), *opposite, self._left(i, j + 1)]
+        for j in range(2, fan.right + 1):
+            opposite = [("right opposite", i, j)] if quad else []
+            yield -j, [("corner", i), self._right(i, j), *opposite, self._right(i, j - 1)]
+
+    def _spokes(self, i: int) -> list[Hashable]:
+        fan = self.fans[i]
+        left = [self._left(i, j) for j in range(fan.left + 1 + (not fan.closed))]
+        return left + [self._right(i, j) for j in range(1, fan.right + 1)]
+
+    def _left(self, i: int, j: int) -> Hashable:
+        """The end of edge ``j`` round corner ``i``, counter-clockwise from the one that follows it in the face."""
+        k, fan = len(self.fans), self.fans[i]
+        if j < 2:
+            return "corner", (i + 1, i - 1)[j] % k
+        if fan.closed and j == fan.left:
+            return "beside", i
+        return ("beside", (i - 1) % k) if k == 3 and j == 2 else ("left", i, j)
+
+    def _right(self, i: int, j: int) -> Hashable:
+        if j == 0:
+            return "corner", (i + 1) % len(self.fans)
+        return ("beside", i) if j == 1 else ("right", i, j)
+
+    def _opposite(self, i: int, j: int) -> Hashable:
+        return ("beside", (i - 1) % 4) if j == 1 else ("left opposite", i, j)
+
+    def _joined(self, name: Hashable) -> Hashable:
+        """Round a corner of three triangles the other two share a vertex: one name for it."""
+        for _ in self.fans:
+            if isinstance(name, tuple) and name[0] == "beside" and len(self.fans) == 3:
+                fan = self.fans[name[1]]
+                if fan.closed and fan.left == 2:
+                    name = ("beside", (name[1] - 1) % 3)
+        return name
+
+
+@dataclass(frozen=True, eq=False)
+class Sorted:
+    """The faces of a mesh by kind: those of ``kinds[i]`` are ``faces[start[i]:start[i + 1]]``."""
+
+    kinds: tuple[Kind, ...]
+    faces: Indices
+    start: Indices
+
+
+def sorted_faces(t: Topology, apart: Mask, at_most: int) -> Sorted | None:
+    """The faces of ``t``, all quads or all triangles; those ``apart`` are never of one kind with others.
+
+    None where there are more than ``at_most`` kinds, or one that cannot be unfolded: with a
+    vertex of two faces, or of very many.
+    """
+    k = t.n_halfedges // t.n_faces
+    counts = np.bincount(t.origin, minlength=t.n_vertices)
+    if counts.max() > LARGEST_FAN:
+        return None
+    code, fans = _fans(t, counts)
+    corners = code.reshape(-1, k)
+    kind = apart.astype(np.intp)
+    for i in range(k):
+        kind = _ranked(kind * len(fans) + corners[:, i])
+        if kind.max() >= at_most:
+            return None
+    order = np.argsort(kind.astype(np.uint16), kind="stable")
+    start = np.concatenate([[0], np.cumsum(np.bincount(kind))])
+    first = corners[order[start[:-1]]].tolist()
+    kinds = tuple(Kind(tuple(fans[c] for c in row)) for row in first)
+    if any(fan.closed and fan.left < 2 for kind in kinds for fan in kind.fans):
+        return None
+    return Sorted(kinds, order, start)
+
+
+def unfolded(kinds: tuple[Kind, ...]) -> tuple[Topology, Indices]:
+    """One face of each kind with its ring, side by side in one mesh, the faces themselves first; and who is who.
+
+    ``number`` (n_vertices,) int says which vertex of its kind every vertex is.
+    """
+    k = len(kinds[0].fans)
+    begin = np.cumsum([0, *(kind.n_vertices for kind in kinds)])
+    faces = [b + i for b in begin[:-1].tolist() for i in range(k)]
+    creases: dict[tuple[int, int], float] = {}
+    corners: dict[int, float] = {}
+    for b, kind in zip(begin.tolist(), kinds, strict=False):
+        faces += [b + v for face in kind.ring for v in face.vertices]
+        creases |= {(b + i, b + j): sharpness for (i, j), sharpness in kind.creases.items()}
+        corners |= {b + i: fan.pinned for i, fan in enumerate(kind.fans) if fan.pinned}
+    t = Topology.from_corners(
+        np.full(len(faces) // k, k), np.array(faces), int(begin[-1]), creases=creases, corners=corners
+    )
+    return t, np.concatenate([np.arange(kind.n_vertices) for kind in kinds])
+
+
+def _fans(t: Topology, counts: Indices) -> tuple[Indices, list[Fan]]:
+    """Which of the fans each corner sees."""
+    code = counts[t.origin]
+    smooth = np.flatnonzero(np.bincount(code))
+    fans = [Fan(int(n) - 1, 0, closed=True) for n in smooth]
+    rank = np.zeros(len(counts) and int(counts.max()) + 1, dtype=np.intp)
+    rank[smooth] = np.arange(len(smooth))
+    code = rank[code]
+    if not is_smooth(t):
+        special = t.vertex_sharpness > 0
+        special[t.ends[t.edge_sharpness > 0]] = True
+        at = np.flatnonzero(special[t.origin])
+        seen, which = np.unique(_features(t, at, int(counts.max())), axis=0, return_inverse=True)
+        code[at] = len(fans) + which.ravel()
+        fans += map(_fan, seen)
+    return code, fans
+
+
+def _features(t: Topology, at: Indices, largest: int) -> Floats:
+    """(len(at), 4 + 2 (largest + 1)) float: numbers in a fan, closed or not, and sharpness left and right."""
+    left, right = (np.zeros((len(at), largest + 1)) for _ in range(2))
+    faces = np.zeros((len(at), 2), dtype=np.intp)
+    closed = np.zeros(len(at), dtype=bool)
+    left[:, 0] = t.edge_sharpness[t.edge[at]]
+    here, g = np.arange(len(at)), at
+    for j in range(1, largest + 1):
+        back = t.prev[g]
+        ahead = t.twin[back]
+        closed[here[ahead == at[here]]] = True
+        here, back, ahead = (x[ahead != at[here]] for x in (here, back, ahead))
+        left[here, j] = t.edge_sharpness[t.edge[back]]
+        here, g = here[ahead >= 0], ahead[ahead >= 0]
+        faces[here, 0] = j
+    here = np.flatnonzero(~closed)
+    g = at[here]
+    for j in range(1, largest + 1):
+        across = t.twin[g]
+        here, g = here[across >= 0], t.next[across[across >= 0]]
+        right[here, j] = t.edge_sharpness[t.edge[g]]
+        faces[here, 1] = j
+    return np.column_stack([faces, closed, t.vertex_sharpness[t.origin[at]], left, right])
+
+
+def _fan(features: Floats) -> Fan:
+    left, right, closed = (int(x) for x in features[:3])
+    first, second = np.split(features[4:], 2)
+    sharpness = (*first[: left + 1 + (not closed)].tolist(), *second[1 : right + 1].tolist())
+    return Fan(left, right, bool(closed), sharpness if any(sharpness) else (), float(features[3]))
+
+
+def _ranked(numbers: Indices) -> Indices:
+    """The same numbers with the gaps closed, in the same order."""
+    present = np.bincount(numbers) > 0
+    return (np.cumsum(present) - 1)[numbers]

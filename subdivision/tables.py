@@ -1,0 +1,265 @@
+"""Many levels at once: a face and its ring become a patch of fine points by one table of weights.
+
+All faces of one kind share a table, so that one product of matrices makes all their patches.
+A table is computed by running the kernels of the scheme themselves on one such face with its
+ring, every vertex standing for itself.
+
+Points are numbered anew: first the vertices of the coarse mesh, in their order; then, kind by
+kind, the points inside each patch and on the edges it owns.  Faces and half-edges keep the
+numbers the stages give them.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from subdivision import refine
+from subdivision.arrays import Floats, Indices
+from subdivision.kernels import Kernel
+from subdivision.rings import Kind, sorted_faces, unfolded
+from subdivision.topology import Topology
+
+Kernels = Callable[[Topology], Kernel]
+
+
+@dataclass(frozen=True, eq=False)
+class Template:
+    """A face with ``k`` corners after ``depth`` splits: its corners, the points on its sides, then those inside.
+
+    Attributes
+    ----------
+    corners : (4 ** depth, k) int
+        The corners of its small faces.
+    first : (n_points,) int
+        Where in ``corners``, flattened, each point comes first.
+    """
+
+    k: int
+    depth: int
+    corners: Indices
+    first: Indices
+
+    @property
+    def on_side(self) -> int:
+        """How many points there are between two corners."""
+        return (1 << self.depth) - 1
+
+    @property
+    def begins_inside(self) -> int:
+        return self.k * (1 + self.on_side)
+
+    @property
+    def n_inside(self) -> int:
+        return len(self.first) - self.begins_inside
+
+    def side(self, i: int) -> Indices:
+        """The points between corner ``i`` and the next."""
+        return self.k + i * self.on_side + np.arange(self.on_side)
+
+
+@lru_cache(maxsize=16)
+def template(k: int, depth: int) -> Template:
+    """The split face, whatever mesh it is in: nothing but arithmetic."""
+    t = Topology.from_corners(np.array([k]), np.arange(k))
+    at = np.array([[0, 0], [1, 0], [1, 1], [0, 1]] if k == 4 else [[0, 0], [1, 0], [0, 1]], dtype=float)
+    ends = np.stack([at, np.roll(at, -1, axis=0)], axis=1)
+    for _ in range(depth):
+        centres = [at[t.origin.reshape(-1, 4)].mean(axis=1)] if k == 4 else []
+        at = np.concatenate([at, *centres, at[t.ends].mean(axis=1)])
+        t = refine.quads(t) if k == 4 else refine.triangles(t)
+    n = 2**depth
+    number = {tuple(p): v for v, p in enumerate((at * n).astype(int).tolist())}
+    order = list(range(k))
+    for a, b in ends.tolist():
+        order += [number[int(n * a[0] + j * (b[0] - a[0])), int(n * a[1] + j * (b[1] - a[1]))] for j in range(1, n)]
+    order += sorted(set(range(len(at))) - set(order))
+    renumbered = np.empty(len(order), dtype=np.intp)
+    renumbered[order] = np.arange(len(order))
+    small, _ = descendants(k, 1, depth)
+    corners = renumbered[t.origin.reshape(-1, k)[small]]
+    return Template(k, depth, corners, np.unique(corners, return_index=True)[1])
+
+
+def descendants(k: int, n_faces: int, depth: int) -> tuple[Indices, Indices]:
+    """After ``depth`` splits face ``f`` of ``n_faces`` has the small faces ``first + each * f``: ``first``, ``each``."""
+    first, each = np.zeros(1, dtype=np.intp), np.ones(1, dtype=np.intp)
+    for _ in range(depth):
+        if k == 4:
+            first, each = (4 * first[:, None] + np.arange(4)).ravel(), np.repeat(4 * each, 4)
+        else:
+            outer = (3 * first[:, None] + np.arange(3)).ravel(), np.repeat(3 * each, 3)
+            first, each = np.concatenate([outer[0], 3 * n_faces + first]), np.concatenate([outer[1], each])
+        n_faces *= 4
+    return first, each
+
+
+@dataclass(frozen=True, eq=False)
+class Patches:
+    """All faces of one kind.
+
+    Attributes
+    ----------
+    ring : (n_ring, n) int
+        The points round each of the ``n`` faces.
+    table, corners : (rows, n_ring), (k, n_ring) float
+        What makes the points of a patch that are its own, and those at its corners.
+    begin : int
+        Point ``row`` of patch ``f`` is number ``begin + row * n + f``.
+    rim, on_rim, rim_begins : (on_side, n_ring) float, (n_rim,) int, int
+        The same for the last side of those patches that have nothing beyond it.
+    """
+
+    ring: Indices
+    table: Floats
+    corners: Floats
+    begin: int
+    rim: Floats
+    on_rim: Indices
+    rim_begins: int
+
+    def apply(self, points: Floats, made: Floats, corners: Floats) -> None:
+        """From ``points`` of the coarse mesh write this kind's into ``made``, and into ``corners`` (k, n, d)."""
+        n, d = self.ring.shape[1], points.shape[1]
+        read = np.take(points, self.ring, axis=0, mode="clip")
+        _product(self.table, read, made[self.begin : self.begin + len(self.table) * n])
+        _product(self.corners, read, corners.reshape(-1, d))
+        if len(self.on_rim):
+            m = len(self.on_rim) * len(self.rim)
+            _product(self.rim, read[:, self.on_rim], made[self.rim_begins : self.rim_begins + m])
+
+
+@dataclass(frozen=True, eq=False)
+class Tables:
+    """``depth`` levels at once, from ``coarse``.
+
+    Attributes
+    ----------
+    begin, step : (n_faces + n_halfedges,) int
+        The points inside a face, and those along a half-edge, are numbers ``begin``, ``begin + step``, ...
+    corner : (n_vertices,) int
+        Where each vertex is among the corners of all patches; -1 for isolated ones.
+    """
+
+    coarse: Topology
+    depth: int
+    patches: tuple[Patches, ...]
+    n_points: int
+    begin: Indices
+    step: Indices
+    corner: Indices
+
+    def apply(self, points: Floats, out: Floats | None = None) -> Floats:
+        """(n_vertices, d) float -> (n_points, d) float, into ``out`` if there is one."""
+        (V, d), F = points.shape, self.coarse.n_faces
+        made = np.empty((self.n_points, d)) if out is None else out
+        corners = np.empty((self.coarse.n_halfedges, d))
+        k, end = self.coarse.n_halfedges // F, 0
+        for patches in self.patches:
+            begin, end = end, end + k * patches.ring.shape[1]
+            patches.apply(points, made, corners[begin:end])
+        np.take(corners, self.corner, axis=0, out=made[:V], mode="clip")
+        alone = self.corner < 0
+        made[:V][alone] = points[alone]
+        return made
+
+    @cached_property
+    def origin(self) -> Indices:
+        """(n_halfedges,) int: the vertex each fine half-edge leaves."""
+        F = self.coarse.n_faces
+        k = self.coarse.n_halfedges // F
+        split = template(k, self.depth)
+        numbers = np.empty((F, len(split.first)), dtype=np.intp)
+        numbers[:, :k] = self.coarse.origin.reshape(F, k)
+        inside, sides = numbers[:, split.begins_inside :], numbers[:, k : split.begins_inside]
+        np.multiply(self.step[:F, None], np.arange(split.n_inside), out=inside)
+        inside += self.begin[:F, None]
+        sides[:] = (self.begin[F:, None] + self.step[F:, None] * np.arange(split.on_side)).reshape(F, -1)
+        first, each = descendants(k, F, self.depth)
+        order = np.argsort(first)
+        origin = np.empty((F * len(first), k), dtype=np.intp)
+        done = 0
+        while done < len(order):
+            begin, count = first[order[done]], each[order[done]]
+            block = origin[begin : begin + count * F].reshape(F, -1)
+            np.take(numbers, split.corners[order[done : done + count]].ravel(), axis=1, out=block, mode="clip")
+            done += count
+        return origin.reshape(-1)
+
+
+def tables(t: Topology, depth: int, kernels: Kernels, at_most: int) -> Tables | None:
+    """Tables for a mesh that is itself the outcome of a step; None where it has too many kinds of faces."""
+    F, H, V = t.n_faces, t.n_halfedges, t.n_vertices
+    k = H // F
+    central = np.arange(F) >= (F if k == 4 else 3 * F // 4)
+    found = sorted_faces(t, central, at_most)
+    if found is None:
+        return None
+    split = template(k, depth)
+    inside, sides = np.arange(split.begins_inside, len(split.first)), [split.side(i) for i in range(k)]
+    owns = np.where(central[found.faces[found.start[:-1]]], 0, 2)
+    rim = t.twin[k * found.faces + k - 1] < 0
+    n, on_rim = np.diff(found.start), np.add.reduceat(rim, found.start[:-1], dtype=np.intp)
+    rows = split.n_inside + owns * split.on_side
+    begins = V + np.cumsum(np.concatenate([[0], n * rows]))
+    rim_begins = begins[-1] + np.cumsum(np.concatenate([[0], on_rim * split.on_side]))
+
+    kind = np.repeat(np.arange(len(n)), n)
+    place = np.arange(F) - found.start[kind]
+    begin, step = np.zeros(F + H, dtype=np.intp), np.zeros(F + H, dtype=np.intp)
+    begin[found.faces], step[found.faces] = begins[kind] + place, n[kind]
+    for i in range(2):
+        own = owns[kind] > 0
+        h = F + k * found.faces[own] + i
+        begin[h] = begin[found.faces[own]] + (split.n_inside + i * split.on_side) * n[kind[own]]
+        step[h] = n[kind[own]]
+    before: Indices = np.cumsum(rim) - rim
+    h = F + k * found.faces[rim] + k - 1
+    begin[h] = (rim_begins[kind] + before - before[found.start[kind]])[rim]
+    step[h] = on_rim[kind[rim]]
+    _share(t.twin, begin[F:], step[F:], split.on_side)
+
+    corner = np.full(V, -1)
+    corner[t.origin.reshape(F, k)[found.faces]] = (k * found.start[kind] + place)[:, None] + n[kind][
+        :, None
+    ] * np.arange(k)
+    patches = []
+    for i, (one, table) in enumerate(zip(found.kinds, _tables(found.kinds, depth, kernels), strict=True)):
+        faces = found.faces[found.start[i] : found.start[i + 1]]
+        patches.append(Patches(
+            ring=one.vertices_around(t, faces),
+            table=table[np.concatenate([inside, *sides[: owns[i]]])],
+            corners=table[:k],
+            begin=int(begins[i]),
+            rim=table[sides[-1]],
+            on_rim=np.flatnonzero(rim[found.start[i] : found.start[i + 1]]),
+            rim_begins=int(rim_begins[i]),
+        ))  # fmt: skip
+    return Tables(t, depth, tuple(patches), int(rim_begins[-1]), begin, step, corner)
+
+
+def _share(twin: Indices, begin: Indices, step: Indices, on_side: int) -> None:
+    """Half-edges without points of their own have those of their twins, the other way round."""
+    bare = np.flatnonzero(step == 0)
+    begin[bare] = begin[twin[bare]] + (on_side - 1) * step[twin[bare]]
+    step[bare] = -step[twin[bare]]
+
+
+def _tables(kinds: tuple[Kind, ...], depth: int, kernels: Kernels) -> list[Floats]:
+    """(n_points, n_vertices) float for each kind: the points of the template from those of the ring."""
+    k = len(kinds[0].fans)
+    t, number = unfolded(kinds)
+    n_faces, points = t.n_faces, np.eye(int(number.max()) + 1)[number]
+    for _ in range(depth):
+        step = kernels(t)
+        t, points = step.refined(), step.apply(points)
+    first, each = descendants(k, n_faces, depth)
+    faces = first + each * np.arange(len(kinds))[:, None]
+    vertices = t.origin.reshape(-1, k)[faces].reshape(len(kinds), -1)[:, template(k, depth).first]
+    return [points[own, : kind.n_vertices] for own, kind in zip(vertices, kinds, strict=True)]
+
+
+def _product(table: Floats, read: Floats, made: Floats) -> None:
+    if len(table):
+        np.matmul(table, read.reshape(len(read), -1), out=made.reshape(len(table), -1))
