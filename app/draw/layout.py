@@ -311,14 +311,8 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
         for b, (text, size) in zip(diagram.boxes, said, strict=True)
         for primitive in _box(b, cells, text, size, b.line * unit * picture.stroke)
     ]
-    usual = max(min(NOTE * unit * picture.scale, 0.5 * cells.tall), LEAST * unit)
-    notes = [
-        text
-        for n in diagram.notes
-        for text in _note(
-            n, cells.at(n.x, n.y), max(n.size * picture.scale, LEAST) * unit if n.size else usual, unit, area, margin
-        )
-    ]
+    size = max(min(NOTE * unit * picture.scale, 0.5 * cells.tall), LEAST * unit)
+    notes = [text for n in diagram.notes for text in _note(n, cells.at(n.x, n.y), size, area, margin)]
     return [*links, *boxes, *notes]
 
 
@@ -379,9 +373,9 @@ def _box(box: Box, cells: _Cells, said: str, size: float, line: float) -> list[P
     return [plate, *words]
 
 
-def _note(note: Note, at: tuple[float, float], size: float, unit: float, area: Area, margin: float) -> list[Primitive]:
+def _note(note: Note, at: tuple[float, float], size: float, area: Area, margin: float) -> list[Primitive]:
     """Words that stay inside their pane: on two lines or more where there is not room for one."""
-    x, y = at[0] + note.away[0] * unit, at[1] - note.away[1] * unit
+    x, y = at
     left, right = area[0] + 0.3 * margin, area[0] + area[2] - 0.3 * margin
     room = {"left": right - x, "right": x - left, "center": 2 * min(x - left, right - x)}[note.align]
     lines = wrapped(note.text, size, max(room, size))

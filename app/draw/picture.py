@@ -173,10 +173,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Note:
-    """Words in a diagram, in cells; ``align`` is left, center or right.
-
-    ``size`` in logical points (0: as notes are); ``away`` moves them, right and up, in logical points.
-    """
+    """Words in a diagram, in cells; ``align`` is left, center or right."""
 
     x: float
     y: float
@@ -184,8 +181,6 @@ class Note:
     colour: Colour
     align: str = "left"
     opacity: float = 1.0
-    size: float = 0.0
-    away: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True)
