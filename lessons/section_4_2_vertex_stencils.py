@@ -90,7 +90,7 @@ def _drift(told: Trace) -> float:
 
 
 def _ball(mesh: Mesh) -> str:
-    return f"ball at the tip: radius {ball_at(mesh, 0):.2f}"
+    return f"ball at the tip: radius {ball_at(mesh, 0):.2g}"
 
 
 def _ratio(mesh: Mesh) -> str:
