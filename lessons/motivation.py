@@ -57,10 +57,10 @@ def four_reasons() -> Iterator[Beat]:
     cube = without_helpers(trace(QUAD_CENTROID, shapes.cube()))
     plus = without_helpers(trace(QUAD_CENTROID, shapes.plus_sign(), levels=3))
     mug = trace(CATMULL_CLARK, shapes.mug(), levels=3)
-    vertex, polygon = hook.step(0).stencil(1), View(hook, 0, 0)
-    over_its_polygon = [replace(view, over=polygon) for view in levels(hook, 0, 4)]
+    vertex = hook.step(0).stencil(1)
+    polygon, fine = levels(hook, 0, 4)
 
-    yield side_by_side("One: a short procedure takes the place of a long formula.", *over_its_polygon, look=FLAT,
+    yield side_by_side("One: a short procedure takes the place of a long formula.", polygon, replace(fine, over=polygon), look=FLAT,
                        notes="No knots, no basis functions: split, average, repeat.",
                        claim=set(map(str, dict(vertex.terms).values())) == {"3/4", "1/8"})
     yield side_by_side("Two: it is easy to understand and to program: topology, then geometry.",
