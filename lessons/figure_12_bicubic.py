@@ -9,6 +9,7 @@ from subdivision import Role, shapes, trace
 from subdivision.schemes import QUAD_CENTROID, tensor_product
 
 LOOK = Look(azimuth=-65.0, elevation=60.0)
+PANES = Look(azimuth=-65.0, elevation=60.0, zoom=0.88)
 WIDE = Look(azimuth=-65.0, elevation=60.0, zoom=0.6)
 """Far enough to see all that a stencil reads."""
 
@@ -46,7 +47,7 @@ def figure_12_bicubic() -> Iterator[Beat]:
                claim=sorted(16 * told.whole.stencil(edge_point).weights) == [1, 1, 1, 1, 6, 6])
     yield side_by_side("Topology keeps the shape, geometry smooths it: together they are one level of the bicubic "
                        "surface.", *at_rest(told, (0, "(a) Original control points"), (1, "(b) New topology"),
-                                            (3, "(c) New geometry")), look=LOOK,
+                                            (3, "(c) New geometry")), look=PANES,
                        notes="Two rounds of centroids are the two averages a cubic needs beyond the bilinear surface: "
                        "Figure 18.",
                        claim=sorted(sorted(row) for row in by_array) == sorted(sorted(row) for row in by_faces))

@@ -7,6 +7,7 @@ from subdivision import Role, shapes, trace
 from subdivision.schemes import QUAD_CENTROID
 
 LOOK = Look(azimuth=-70.0, elevation=58.0)
+PANES = Look(azimuth=-70.0, elevation=58.0, zoom=0.88)
 
 
 @lesson("Figure 13  Extraordinary vertex", section="3.1 Quads: centroid averaging",
@@ -49,4 +50,4 @@ def figure_13_extraordinary_vertex(valence: int = 6) -> Iterator[Beat]:
                        "One level: valence four everywhere, so this is the bicubic case.",
                        *at_rest(told, (0, f"(a) {kind.split(' ', 1)[1].capitalize()}"), (1, "(b) New topology"),
                                 (3, "(c) New geometry")),
-                       look=LOOK, claim=geometry.topology.valence[0] == n)
+                       look=PANES, claim=geometry.topology.valence[0] == n)

@@ -9,6 +9,7 @@ from subdivision import Role, shapes, trace
 from subdivision.schemes import TRIANGLE_CENTROID
 
 LOOK = Look(azimuth=-62.0, elevation=58.0)
+PANES = Look(azimuth=-62.0, elevation=58.0, zoom=0.88)
 WIDE = Look(azimuth=-62.0, elevation=58.0, zoom=0.62)
 """Far enough to see all that a stencil reads."""
 
@@ -42,7 +43,7 @@ def figure_22_quartic() -> Iterator[Beat]:
                claim=sorted(16 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 1, 1, 10])
     yield side_by_side("Topology keeps the shape, geometry smooths it: together they are one level of the quartic "
                        "surface.", *at_rest(told, (0, "(a) Original control points"), (1, "(b) New topology"),
-                                            (3, "(c) New geometry")), look=LOOK,
+                                            (3, "(c) New geometry")), look=PANES,
                        notes="The lecture asks the reader to lay Figure 21's stencil over Figure 6's points; the "
                        "result is Figure 7.",
                        claim=all(sorted(16 * told.whole.stencil(int(v)).weights) in ([1] * 6 + [10], [2, 2, 6, 6])

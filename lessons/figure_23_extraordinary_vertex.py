@@ -7,6 +7,7 @@ from subdivision import Role, shapes, trace
 from subdivision.schemes import TRIANGLE_CENTROID
 
 LOOK = Look(azimuth=-70.0, elevation=58.0)
+PANES = Look(azimuth=-70.0, elevation=58.0, zoom=0.88)
 
 
 @lesson("Figure 23  Extraordinary vertex", section="4.1 Triangles: centroid averaging",
@@ -49,5 +50,5 @@ def figure_23_extraordinary_vertex(valence: int = 8) -> Iterator[Beat]:
     yield side_by_side(f"One level. The limit is C² at ordinary points, {smooth}.",
                        *at_rest(told, (0, f"(a) {kind.split(' ', 1)[1].capitalize()}"), (1, "(b) New topology"),
                                 (3, "(c) New geometry")),
-                       look=LOOK, notes="Only continuity is guaranteed at valence three: try the tetrahedron.",
+                       look=PANES, notes="Only continuity is guaranteed at valence three: try the tetrahedron.",
                        claim=geometry.topology.valence[0] == n)

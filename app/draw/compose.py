@@ -22,6 +22,9 @@ from subdivision import Mesh, Polyline, Role, TopologyError
 WITH_MATRIX = 0.56
 """The part of the width that is left to the views beside the matrices."""
 
+WIDE = 2.4
+"""Width to height of what the words leave of a picture."""
+
 PYRAMID, ARRAY = 1.8, 1.4
 """How wide the diagrams of polygons and nets are beside a scene, relative to it."""
 
@@ -149,13 +152,15 @@ def _measured(state: State, view: View) -> str:
 
 
 def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:
-    """Up to three side by side, a diagram wider than a scene; more of them in two rows."""
+    """Up to three side by side, a diagram wider than a scene; more of them in rows, as large as they can be."""
     n = len(beat.views)
     if n <= 3:
         ends = list(accumulate(map(_share, beat.views), initial=0.0))
         return tuple((a / ends[-1], 0.0, (b - a) / ends[-1], 1.0) for a, b in pairwise(ends))
-    columns = (n + 1) // 2
-    return tuple(((k % columns) / columns, (k // columns) / 2, 1 / columns, 1 / 2) for k in range(n))
+    aspect = max(camera(view.trace, view.look or beat.look).aspect for view in beat.views)
+    columns = max(range(1, n + 1), key=lambda c: min(1 / -(-n // c), WIDE / (c * aspect)))
+    rows = -(-n // columns)
+    return tuple(((k % columns) / columns, (k // columns) / rows, 1 / columns, 1 / rows) for k in range(n))
 
 
 def _share(view: View) -> float:

@@ -8,7 +8,7 @@ from app.draw.picture import Camera, Faces, Label, Lines, Markers, Scene, Shape
 from app.draw.pointed import Pointed
 from app.draw.theme import NAMES, SHAPES, SIZES, Theme
 from app.state import Options
-from subdivision import Connectivity, Frame, Mesh, Polyline, Role, Topology, Trace
+from subdivision import Connectivity, Frame, Grid, Mesh, Polyline, Role, Topology, Trace
 from subdivision.arrays import Floats, Indices, Mask
 from subdivision.exact import spelled_together
 from subdivision.rows import shown_corners, shown_faces
@@ -27,6 +27,9 @@ CORNERED = 0.55
 
 MANY = 220
 """Beyond so many points on a whole picture only extraordinary vertices are marked once a level is done."""
+
+TOO_MANY = 1000
+"""Beyond so many points the same holds at any time after the control object."""
 
 MANY_ON_A_CURVE = 30
 """The same on a polygon, where none is extraordinary."""
@@ -242,12 +245,17 @@ def _marker(role: Role, cornered: bool) -> tuple[Shape, float]:
 
 
 def _is_many(frame: Frame, trace: Trace, faint: Mask, share: float) -> bool:
-    """Whether a level is done and has too many points to mark them all."""
-    if frame.stage is None or frame.progress < 1 or len(frame.points) > frame.topology.n_vertices:
+    """Whether there are too many points to mark them all: when a level is done, or at all."""
+    if frame.stage is None:
+        return False
+    if (~faint).sum() > TOO_MANY * share:
+        return True
+    if frame.progress < 1 or len(frame.points) > frame.topology.n_vertices:
         return False
     k = trace.index(frame.stage) + 1
-    is_done = frame.stage.moves or k == len(trace.stages) or trace.levels[k] > trace.levels[k - 1]
-    return is_done and (~faint).sum() > (MANY if frame.topology.n_faces else MANY_ON_A_CURVE) * share**0.7
+    is_done = k == len(trace.stages) or trace.levels[k] > trace.levels[k - 1]
+    is_done = is_done or (frame.stage.moves and not isinstance(frame.topology, Grid))
+    return is_done and (~faint).sum() > (MANY if frame.topology.n_faces else MANY_ON_A_CURVE) * share**0.9
 
 
 def _sizes(frame: Frame, radius: float, *, alone: float, is_many: bool) -> Floats:
