@@ -32,6 +32,8 @@ class Scheme:
         The first one is the telling for those who do not choose.
     refinement : Refinement, optional
         How it splits meshes; left out by schemes of polygons and nets.
+    rings : int
+        How many rings of faces round a vertex the points near it read.
     reach : valence -> number, optional
         How far a smooth vertex goes to the mean of its ring, if that is all that tells the scheme from
         the others of its refinement; then ``plan.py`` knows a fast way.
@@ -47,6 +49,7 @@ class Scheme:
     refuses: Callable[[Connectivity], str]
     tellings: Mapping[str, Callable[[Connectivity], Step]]
     refinement: Refinement | None = None
+    rings: int = 1
     reach: Callable[[int], Exact | int] | None = None
     limit: Callable[[Connectivity], Stage] | None = None
     tangents: Callable[[Topology], tuple[Operator, Operator]] | None = None

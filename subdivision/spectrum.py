@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from subdivision.arrays import Floats
 from subdivision.exact import Exact, cosine, spelled
 from subdivision.manifold import TopologyError
+from subdivision.refine import QUADS, TRIANGLES
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
 from subdivision.topology import Topology
@@ -142,7 +143,8 @@ def ring(scheme: Scheme, valence: int) -> Ring:
     Raises
     ------
     TopologyError
-        For a valence below 3, and for schemes of polygons and nets.
+        For a valence below 3, for schemes of polygons and nets, and for those whose new points are not told by the
+        faces round one vertex.
     """
     step, names, successors = _step_on_fan(scheme, valence)
     return Ring(scheme, valence, names, tuple(_named(step, names, name, point) for name, point in successors.items()))
@@ -181,6 +183,10 @@ def _step_on_fan(scheme: Scheme, n: int) -> tuple[Step, tuple[str, ...], dict[st
     """A step on a fan; names of the old points; and where their successors are among the new ones."""
     if n < 3:
         raise TopologyError(f"{n} faces do not close round a vertex; choose a valence of 3 or more")
+    if scheme.refinement not in (None, QUADS, TRIANGLES):
+        raise TopologyError(f"{scheme.title} makes no point for every vertex and edge: no valence tells a stencil")
+    if scheme.rings > 1:
+        raise TopologyError(f"{scheme.title} reads {scheme.rings} rings of faces: no valence alone tells a stencil")
     fans = [fan(n, 4), fan(n, 3)]
     t = next((t for t in fans if scheme.accepts(t)), None)
     if t is None:

@@ -12,7 +12,7 @@ from subdivision import Boundary, Grid, Mesh, Polyline, Scheme, Topology, Topolo
 from subdivision.arrays import Floats
 from subdivision.limit import limit_points
 from subdivision.rows import Connectivity
-from subdivision.schemes import ZWART_POWELL, box_spline, lane_riesenfeld, tensor_product
+from subdivision.schemes import LECTURE, SCHEMES, ZWART_POWELL, box_spline, lane_riesenfeld, tensor_product
 from subdivision.schemes.chaikin import CHAIKIN
 from subdivision.schemes.doo_sabin import DOO_SABIN, DOO_SABIN_MEAN
 from subdivision.schemes.four_point import Ends, four_point
@@ -20,6 +20,7 @@ from subdivision.schemes.kobbelt import KOBBELT, edge_points, face_points, kobbe
 from subdivision.schemes.mid_edge import MID_EDGE
 from subdivision.schemes.modified_butterfly import MODIFIED_BUTTERFLY
 from subdivision.schemes.sqrt3 import SQRT3
+from subdivision.spectrum import ring, stencil_by_valence
 
 POLYGONS = [Polyline(7), Polyline(6, closed=True), Polyline(3, closed=True), Polyline(11)]
 REFLECTED = four_point(ends=Ends.REFLECTED)
@@ -613,3 +614,11 @@ def test_kobbelt_says_what_it_does_not_do() -> None:
         KOBBELT.step(Topology.from_faces(shapes.cube().surface.loops(), creases={(0, 1): 2.0}))
     with pytest.raises(TopologyError, match="must be a quadrilateral"):
         KOBBELT.step(shapes.octahedron().topology)
+
+
+@pytest.mark.parametrize("scheme", [s for s in SCHEMES if s not in LECTURE], ids=lambda s: s.name)
+def test_what_one_valence_does_not_tell_is_refused_with_a_sentence(scheme: Scheme) -> None:
+    with pytest.raises(TopologyError, match="tells a stencil"):
+        stencil_by_valence(scheme, 5, "vertex")
+    with pytest.raises(TopologyError, match=scheme.title):
+        ring(scheme, 5)

@@ -47,6 +47,7 @@ def kobbelt(tension: Fraction | float = CUBIC) -> Scheme:
             "stencils": partial(by_stencils, w=w),
         },
         refinement=refine.QUADS,
+        rings=2,
         limit=_limit,
     )
 

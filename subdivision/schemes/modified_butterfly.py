@@ -129,5 +129,6 @@ MODIFIED_BUTTERFLY = Scheme(
     refuses=_refuses,
     tellings={"midpoints, then push": by_pushing, "stencils": by_stencils},
     refinement=refine.TRIANGLES,
+    rings=2,
     limit=_limit,
 )
