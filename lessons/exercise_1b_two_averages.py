@@ -61,9 +61,15 @@ def exercise_1b_two_averages(w_s: int = 1, w_t: int = 1) -> Iterator[Beat]:
 def two_averages(v: Vector, w: Vector) -> Scheme:
     """Two averages and no split: not subdivision yet, but what a box spline is made of."""
     return Scheme(
-        "two-averages", "Two averages", "WW02", lambda t: "",
-        {V_FIRST: lambda t: told(t, [average(v), average(w)]), W_FIRST: lambda t: told(t, [average(w), average(v)])},
-    )  # fmt: skip
+        name="two-averages",
+        title="Two averages",
+        paper="WW02",
+        refuses=lambda t: "",
+        tellings={
+            V_FIRST: lambda t: told(t, [average(v), average(w)]),
+            W_FIRST: lambda t: told(t, [average(w), average(v)]),
+        },
+    )
 
 
 def order(trace: Trace) -> str:

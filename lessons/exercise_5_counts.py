@@ -21,8 +21,8 @@ def exercise_5_counts() -> Iterator[Beat]:
 
     yield side_by_side("Count vertices, edges and faces. What is V - E + F?", *panes(quads, 0, 0),
                        formula=r"$\chi = V - E + F$",
-                       notes="2 for whatever can be blown up to a ball, 0 for a torus, 1 for a sheet. The outline of the "
-                       "sheet follows a boundary rule that the lecture does not have; it changes no count.",
+                       notes="2 for whatever can be blown up to a ball, 0 for a torus, 1 for a sheet. The outline of "
+                       "the sheet follows a boundary rule that the lecture does not have; it changes no count.",
                        claim=[eulers(each) for each in quads.values()] == [{2}, {0}, {1}])
     yield side_by_side("One level. Every vertex, edge and face brings a vertex; every face brings four edges inside.",
                        *panes(quads, 0, 1), formula=split_into("V + E + F", "2E + 4F"),

@@ -60,7 +60,8 @@ def four_reasons() -> Iterator[Beat]:
     vertex = hook.step(0).stencil(1)
     polygon, fine = levels(hook, 0, 4)
 
-    yield side_by_side("One: a short procedure takes the place of a long formula.", polygon, replace(fine, over=polygon), look=FLAT,
+    yield side_by_side("One: a short procedure takes the place of a long formula.", polygon,
+                       replace(fine, over=polygon), look=FLAT,
                        notes="No knots, no basis functions: split, average, repeat.",
                        claim=set(map(str, dict(vertex.terms).values())) == {"3/4", "1/8"})
     yield side_by_side("Two: it is easy to understand and to program: topology, then geometry.",
