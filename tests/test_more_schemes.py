@@ -309,6 +309,22 @@ def test_faces_of_a_dual_scheme_keep_their_centroids_and_vertices_tend_to_the_fi
     assert np.linalg.norm(last[:, None] - limits[None], axis=2).min(axis=0).max() < 1e-12
 
 
+def test_told_as_topology_and_geometry_the_first_stages_move_nothing() -> None:
+    cube, octahedron = shapes.cube().topology, shapes.octahedron().topology
+    topological = {
+        "split the vertices": (DOO_SABIN, "topology and geometry", cube), "topology": (KOBBELT, None, cube),
+        "insert centroids": (SQRT3, None, octahedron), "midpoints": (four_point(), "midpoints, then push", Polyline(8)),
+        "split": (CHAIKIN, "split and slide", Polyline(5)),
+    }  # fmt: skip
+    for name, (scheme, telling, t) in topological.items():
+        first, *rest = scheme.step(t, telling).stages
+        assert first.name == name
+        assert not first.moves
+        assert any(stage.moves for stage in rest)
+    split = DOO_SABIN.step(cube).stages[0]
+    assert np.array_equal(split.carries, shapes.cube().surface.origin)  # new corners grow out of the old one
+
+
 def test_limits_of_dual_schemes_are_those_of_their_splines() -> None:
     net = Grid(5, 4, True, True)
     mesh = Mesh(net, positions(20))

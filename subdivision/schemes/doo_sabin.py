@@ -70,7 +70,7 @@ def regular_polygons(topology: Connectivity) -> Step:
     """Centroids; the affinely regular polygon of every face; a point between both and the corner; connect."""
     t = meshes.as_mesh(topology)
     V, F, H = t.n_vertices, t.n_faces, t.n_halfedges
-    roles = np.repeat([Role.ORIGINAL, Role.FACE, Role.EDGE, Role.MOVED], [V, F, H, H])
+    roles = np.repeat([Role.ORIGINAL, Role.CENTROID, Role.FACE, Role.MOVED], [V, F, H, H])
     regular = Pick(V + t.face, V + F) + (_lean(t) @ Pick(t.origin, V + F))
     n = V + F + H
     points = 1 / 4 * Pick(t.origin, n) + 1 / 2 * Pick(V + t.face, n) + 1 / 4 * Pick(V + F + np.arange(H), n)
@@ -86,7 +86,7 @@ def midpoints_and_centroids(topology: Connectivity) -> Step:
     """Edge midpoints; centroids; the mean of four in every corner; connect."""
     t = meshes.as_mesh(topology)
     V, E, F, H = t.n_vertices, t.n_edges, t.n_faces, t.n_halfedges
-    roles = np.repeat([Role.ORIGINAL, Role.EDGE, Role.FACE, Role.MOVED], [V, E, F, H])
+    roles = np.repeat([Role.ORIGINAL, Role.EDGE, Role.CENTROID, Role.MOVED], [V, E, F, H])
     n = V + E + F
     four = [Pick(k, n) for k in (t.origin, V + t.edge, V + t.edge[t.prev], V + E + t.face)]
     points = 1 / 4 * (four[0] + four[1] + four[2] + four[3])
