@@ -26,7 +26,7 @@ from app.turn import FARTHEST, NEAREST, Turn
 from lessons import all_lessons
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, Polyline, Topology, TopologyError, shapes
-from subdivision.catalogue import FAMILIES, Parameter, Value
+from subdivision.catalogue import FAMILIES, Parameter, Value, scheme
 from subdivision.files import FileError
 from subdivision.files.faults import Fault, fault_of_system, printable
 from subdivision.files.saving import save
@@ -355,11 +355,17 @@ def _rule(entry: Entry, control: Mesh) -> Rule:
     boundary = Boundary(table["boundary"].one_of([b.value for b in Boundary]))
     try:
         rule = Rule(family.name, values, boundary=boundary)
-        rule = replace(rule, telling=table["telling"].one_of(("", *rule.scheme.tellings)))
+        rule = replace(rule, telling=table["telling"].one_of(("", *rule.scheme.tellings, *_tellings())))
         rule.scheme.require(rule.bounded(control).topology)
     except TopologyError as refusal:
         raise entry.fault(str(refusal)) from None
     return rule
+
+
+@cache
+def _tellings() -> tuple[str, ...]:
+    """How any scheme is told: a rule keeps the word for one that its scheme does not have, for when it changes back."""
+    return tuple(dict.fromkeys(telling for name in FAMILIES for telling in scheme(name).tellings))
 
 
 def _value(entry: Entry, parameter: Parameter) -> Value:
