@@ -10,7 +10,7 @@ LOOK = Look(azimuth=-70.0, elevation=58.0)
 PANES = Look(azimuth=-70.0, elevation=58.0, zoom=0.88)
 
 
-@lesson("Figure 13  Extraordinary vertex", section="3.1 Quads: centroid averaging",
+@lesson("Figure 13  Extraordinary vertex", section="3.1 Quads: averaging",
         ours="The faint ring: the lecture draws the quads round the vertex, but their outer points need more faces.",
         colours={Role.EDGE: "yellow", Role.FACE: "green", Role.CENTROID: "blue", Role.MOVED: "black"},
         knobs={"valence": range(3, 13)})
@@ -35,9 +35,9 @@ def figure_13_extraordinary_vertex(valence: int = 6) -> Iterator[Beat]:
                claim=after == (6 * n + 1, 10 * n, 4 * n) and not topology.moves and topology.topology.valence[0] == n
                and set(topology.topology.valence[topology.born][inside[topology.born]]) == {4})
     yield play(told, centroids, "Mark the centroid of every small face: the {centroid} helpers, not vertices.",
-               look=LOOK, marks=marks, claim=len(centroids.born) == topology.topology.n_faces)
+               look=LOOK, claim=len(centroids.born) == topology.topology.n_faces)
     yield play(told, geometry, f"(c) New geometry: the middle moves to the centroid of {n} helpers, all others of "
-               "four.", look=LOOK, marks=marks, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
+               "four.", look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
                notes="The pale helpers show what every vertex is now amid. The lecture does not colour the last "
                "position.",
                claim=geometry.matrix[[0]].nnz == n and all(geometry.matrix[[v]].nnz == 4 for v in topology.born[:n]))

@@ -10,7 +10,7 @@ LOOK = Look(azimuth=-70.0, elevation=58.0)
 PANES = Look(azimuth=-70.0, elevation=58.0, zoom=0.88)
 
 
-@lesson("Figure 23  Extraordinary vertex", section="4.1 Triangles: centroid averaging",
+@lesson("Figure 23  Extraordinary vertex", section="4.1 Triangles: averaging",
         ours="The faint ring: the lecture draws the triangles round the vertex; their outer points need more faces.",
         colours={EXTRAORDINARY: "blue", Role.EDGE: "yellow", Role.CENTROID: "green", Role.MOVED: "black"},
         knobs={"valence": range(3, 13)})
@@ -37,11 +37,11 @@ def figure_23_extraordinary_vertex(valence: int = 8) -> Iterator[Beat]:
                claim=after == (3 * n + 1, 7 * n, 4 * n) and not topology.moves and topology.topology.valence[0] == n
                and set(topology.topology.valence[topology.born][inside[topology.born]]) == {6})
     yield play(told, centroids, "Mark the {centroid} weighted centroids: three in every small triangle, one for each "
-               "corner.", look=LOOK, marks=marks, formula=r"$C = \dfrac{2}{8} Q + \dfrac{3}{8} R + \dfrac{3}{8} S$",
+               "corner.", look=LOOK, formula=r"$C = \dfrac{2}{8} Q + \dfrac{3}{8} R + \dfrac{3}{8} S$",
                notes="Each leans away from its own corner. It cannot be used again for another vertex.",
                claim=len(centroids.born) == 3 * topology.topology.n_faces)
     yield play(told, geometry, f"(c) New geometry: the middle moves to the centroid of its own {n}, all others of six.",
-               look=LOOK, marks=marks, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
+               look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
                notes="The pale helpers show what every vertex is now amid.",
                claim=geometry.matrix[[0]].nnz == n and all(geometry.matrix[[v]].nnz == 6 for v in range(1, n + 1)))
     yield show(told, geometry, "In one formula: the vertex keeps five eighths, its neighbours share three.",

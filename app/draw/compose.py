@@ -140,7 +140,7 @@ def _content(state: State, view: View, theme: Theme, share: float) -> Scene | Di
     over = shown_mesh(state, view.over) if view.over is not None else None
     options = replace(state.options, net=False) if view.isophotes else state.options
     made = scene(trace.frame(motion.eased(at)), trace, seen, options, theme, row, view.marks, over, share)
-    bands = tuple(isophotes(faces, theme.ink, 3.0 * theme.stroke) for faces in made.faces if view.isophotes)
+    bands = tuple(isophotes(faces, theme.ink, 2.4 * theme.stroke) for faces in made.faces if view.isophotes)
     return replace(made, lines=(*made.lines, *bands))
 
 

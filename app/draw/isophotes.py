@@ -12,7 +12,7 @@ from subdivision.arrays import Floats
 LIGHT = np.array([0.48, -0.36, 0.8])
 """A unit vector towards the light; it stays where it is when the view turns."""
 
-STEP = 9.0
+STEP = 6.0
 """Degrees from one line to the next."""
 
 
