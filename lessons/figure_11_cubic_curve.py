@@ -7,7 +7,7 @@ from subdivision import shapes, trace
 from subdivision.schemes import lane_riesenfeld
 
 
-@lesson("Figure 11  The cubic curve", section="3.1 Quads: centroid averaging",
+@lesson("Figure 11  The cubic curve", section="3.1 Quads: averaging",
         ours="The panels and their colours follow Figure 12; the figure itself is missing from the text.")
 def figure_11_cubic_curve() -> Iterator[Beat]:
     told = trace(lane_riesenfeld(3), shapes.hook(), telling="topology and geometry", levels=3)

@@ -14,7 +14,7 @@ WIDE = Look(azimuth=-65.0, elevation=60.0, zoom=0.6)
 """Far enough to see all that a stencil reads."""
 
 
-@lesson("Figure 12  Bicubic surfaces", section="3.1 Quads: centroid averaging",
+@lesson("Figure 12  Bicubic surfaces", section="3.1 Quads: averaging",
         ours="The faint ring: the lecture draws one face, but all its nine points need the faces around it.",
         colours={Role.EDGE: "yellow", Role.FACE: "yellow", Role.CENTROID: "green", Role.MOVED: "blue"})
 def figure_12_bicubic() -> Iterator[Beat]:

@@ -8,7 +8,7 @@ from subdivision import Topology, shapes, trace
 from subdivision.schemes import QUAD_CENTROID
 
 
-@lesson("Figure 14  The cube", section="3.1 Quads: centroid averaging",
+@lesson("Figure 14  The cube", section="3.1 Quads: averaging",
         ours="The lecture shows the cube as a mesh; that it is then subdivided, and how far, is inferred.")
 def figure_14_cube() -> Iterator[Beat]:
     cube = shapes.cube()

@@ -12,7 +12,7 @@ from subdivision.schemes import QUAD_CENTROID
 LOOK = Look(azimuth=-58.0, elevation=27.0)
 
 
-@lesson("Figure 15  A plus sign", section="3.1 Quads: centroid averaging",
+@lesson("Figure 15  A plus sign", section="3.1 Quads: averaging",
         ours="The mesh: the figure is missing from the text. The lecture promises a second quad mesh that is no array.")
 def figure_15_plus_sign() -> Iterator[Beat]:
     plus = shapes.plus_sign()

@@ -16,7 +16,7 @@ QUARTIC = ((1, 1), (1, 0), (0, 1), *THREE_DIRECTION_LINEAR)
 WEIGHTS = ["1/4"] + ["1/8"] * 6
 
 
-@lesson("Figure 21  The hexagon stencil", section="4.1 Triangles: centroid averaging",
+@lesson("Figure 21  The hexagon stencil", section="4.1 Triangles: averaging",
         ours="The figure is missing; the sentence that introduces it breaks off. The weights follow from the text.")
 def figure_21_hexagon() -> Iterator[Beat]:
     star = without_helpers(trace(TRIANGLE_CENTROID, shapes.triangle_star(6)))

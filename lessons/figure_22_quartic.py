@@ -14,7 +14,7 @@ WIDE = Look(azimuth=-62.0, elevation=58.0, zoom=0.62)
 """Far enough to see all that a stencil reads."""
 
 
-@lesson("Figure 22  Quartic surfaces", section="4.1 Triangles: centroid averaging",
+@lesson("Figure 22  Quartic surfaces", section="4.1 Triangles: averaging",
         ours="The faint ring: the lecture draws two faces, but all their nine points need the faces around them.",
         colours={Role.EDGE: "yellow", Role.CENTROID: "green", Role.MOVED: "blue"})
 def figure_22_quartic() -> Iterator[Beat]:

@@ -11,7 +11,7 @@ from subdivision.schemes import TRIANGLE_CENTROID
 LOOK = Look(azimuth=-62.0, elevation=22.0)
 
 
-@lesson("Figure 24  The octahedron", section="4.1 Triangles: centroid averaging",
+@lesson("Figure 24  The octahedron", section="4.1 Triangles: averaging",
         ours="The lecture shows the octahedron as a mesh; that it is then subdivided, and how far, is inferred.")
 def figure_24_octahedron() -> Iterator[Beat]:
     octahedron = shapes.octahedron()

@@ -11,7 +11,7 @@ from subdivision.schemes import TRIANGLE_CENTROID
 LOOK = Look(azimuth=-70.0, elevation=26.0)
 
 
-@lesson("Figure 25  A bipyramid", section="4.1 Triangles: centroid averaging",
+@lesson("Figure 25  A bipyramid", section="4.1 Triangles: averaging",
         ours="The mesh: the figure is missing from the text. The lecture promises a second mesh that is not regular.",
         knobs={"sides": range(5, 13)})
 def figure_25_bipyramid(sides: int = 8) -> Iterator[Beat]:

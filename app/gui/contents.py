@@ -227,6 +227,7 @@ class _Painter(QStyledItemDelegate):
 
 
 def numbered(title: str) -> tuple[str, str]:
-    """A figure's number and the rest of its title: in a list of figures the word says nothing."""
+    """The number of a figure or an exercise and the rest of its title: in a list of them the word says nothing."""
     head, _, rest = title.partition("  ")
-    return (head.removeprefix("Figure "), rest.strip()) if rest and head.startswith("Figure ") else ("", title)
+    word, _, number = head.partition(" ")
+    return (number, rest.strip()) if rest and word in ("Figure", "Exercise") else ("", title)
