@@ -55,11 +55,21 @@ def _degree(name: str, start: int) -> Parameter:
     return Parameter(name, start, Fraction(1), Fraction(7))
 
 
+def _four_point(tension: Fraction) -> Scheme:
+    """From end to end, as an open polygon of any length is shown best."""
+    return schemes.four_point(tension, schemes.Ends.REFLECTED)
+
+
+_TENSION = Parameter("tension", Fraction(1, 16), Fraction(0), Fraction(1, 8), Fraction(1, 64))
+
+
 FAMILIES: Mapping[str, Family] = MappingProxyType({
     family.name: family
     for family in (
         *(Family(each.name, each.title, lambda each=each: each) for each in schemes.SCHEMES),
         Family("lane-riesenfeld", "Lane-Riesenfeld", schemes.lane_riesenfeld, (_degree("degree", 3),)),
+        Family("chaikin", schemes.CHAIKIN.title, lambda: schemes.CHAIKIN),
+        Family("four-point", "Four-point scheme", _four_point, (_TENSION,)),
         Family(
             "tensor-product", "Tensor product", schemes.tensor_product,
             (_degree("degree in s", 3), _degree("degree in t", 3)),
