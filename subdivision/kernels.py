@@ -58,11 +58,11 @@ class Kernel:
         """How many points it makes."""
         return self.coarse.n_vertices + self.coarse.n_edges + (self.coarse.n_faces if self.faces else 0)
 
-    def apply(self, points: Floats) -> Floats:
-        """(n_vertices, d) float -> (n_points, d) float."""
+    def apply(self, points: Floats, out: Floats | None = None) -> Floats:
+        """(n_vertices, d) float -> (n_points, d) float, into ``out`` if there is one."""
         V, d = points.shape
         inner = self.n_points - self.coarse.n_edges
-        made = np.empty((self.n_points, d))
+        made = np.empty((self.n_points, d)) if out is None else out
         read = points
         if self.faces:
             read = np.empty((inner, d))

@@ -6,7 +6,7 @@ no kernel are told in stages, which all of this is tested against.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -20,11 +20,17 @@ from subdivision.stage import Step
 from subdivision.tables import Tables, tables
 from subdivision.topology import INFINITELY_SHARP, Topology
 
-DEEPEST = 4
-"""Tables of more levels would not be faster: a weight costs the same at any depth."""
+DEEPEST = 5
+"""Tables of more levels would not be faster: a point costs the same at any depth."""
 
-FACES_A_TABLE = 16
-"""What a kind of face needs to be worth a table, on average."""
+WORTH_TABLES = 8_000
+"""Fine faces from where on laying out tables takes less time than they save."""
+
+FACES_A_KIND, FINE_FACES_A_KIND = 6, 2_000
+"""What a kind of face must stand for on average, before and after, to be worth a table."""
+
+SMALL, SMALL_ENOUGH = 16, 25_000
+"""Control points, and points made of them, up to which one dense matrix is the fastest plan."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,17 +43,32 @@ class Plan:
         The outcome's.  Of meshes, half-edges, edges and faces are numbered as by the stages.
     steps : (Kernel or Step or Tables, ...)
         One after the other they make the points.
+    whole : (n_vertices after, n_vertices before) float, optional
+        The product of the steps, where that is small.
     """
 
     topology: Connectivity
     steps: tuple[Kernel | Step | Tables, ...]
+    whole: Floats | None = None
 
-    def apply(self, points: Floats) -> Floats:
-        """(n_vertices, d) float before -> (n_vertices, d) float after."""
+    def apply(self, points: Floats, out: Floats | None = None) -> Floats:
+        """(n_vertices, d) float before -> (n_vertices, d) float after, into ``out`` if there is one.
+
+        Who applies a plan again and again saves the time to find new memory.
+        """
         points = np.ascontiguousarray(points, dtype=float)
-        for step in self.steps:
+        if self.whole is not None:
+            return np.matmul(self.whole, points, out=out)
+        for step in self.steps[:-1]:
             points = step.apply(points)
-        return points
+        for last in self.steps[-1:]:
+            if not isinstance(last, Step):
+                return last.apply(points, out)
+            points = last.apply(points)
+        if out is None:
+            return points
+        out[:] = points
+        return out
 
     @cached_property
     def numbers(self) -> Indices:
@@ -66,15 +87,24 @@ def plan(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     TopologyError
         If the scheme refuses the control object.
     """
+    laid_out = once(t, scheme, levels)
+    if t.n_vertices > SMALL or laid_out.topology.n_vertices > SMALL_ENOUGH or not levels:
+        return laid_out
+    return replace(laid_out, whole=np.asfortranarray(laid_out.apply(np.eye(t.n_vertices))))
+
+
+def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
+    """The same plan, quicker to make and slower to apply."""
     scheme.require(t)
     make = _kernels(t, scheme)
-    if make is None or not isinstance(t, Topology):
+    if make is None or not isinstance(t, Topology) or scheme.refinement is None:
         return _staged(t, scheme, levels)
-    depth = _depth(t, scheme, levels)
+    fine = scheme.refinement.faces(t, levels) if levels else 0
     steps: list[Kernel] = []
     while len(steps) < levels:
-        if depth > 1 and len(steps) == levels - depth:
-            deep = tables(t, depth, make, at_most=t.n_faces // FACES_A_TABLE)
+        depth = levels - len(steps)
+        if steps and 1 < depth <= DEEPEST and fine > WORTH_TABLES:
+            deep = tables(t, depth, make, at_most=min(t.n_faces // FACES_A_KIND, fine // FINE_FACES_A_KIND))
             if deep:
                 return Plan(_renumbered(deep), (*steps, deep))
         steps.append(make(t))
@@ -97,15 +127,6 @@ def _staged(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
         steps.append(scheme.step(t))
         t = steps[-1].topology
     return Plan(t, tuple(steps))
-
-
-def _depth(t: Topology, scheme: Scheme, levels: int) -> int:
-    """How many levels to make at once: many, but from enough faces to be worth a table for each kind."""
-    assert scheme.refinement
-    depth = min(DEEPEST, levels - 1)
-    while depth > 1 and scheme.refinement.faces(t, levels - depth) < 1500:
-        depth -= 1
-    return depth
 
 
 def _renumbered(deep: Tables) -> Topology:

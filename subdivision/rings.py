@@ -68,6 +68,8 @@ class Kind:
     @cached_property
     def creases(self) -> dict[tuple[int, int], float]:
         """The sharp edges at its corners."""
+        if not any(fan.sharpness for fan in self.fans):
+            return {}
         numbers = self._numbers
         return {
             (i, numbers[self._joined(name)]): sharpness
@@ -199,6 +201,36 @@ def unfolded(kinds: tuple[Kind, ...]) -> tuple[Topology, Indices]:
         np.full(len(faces) // k, k), np.array(faces), int(begin[-1]), creases=creases, corners=corners
     )
     return t, np.concatenate([np.arange(kind.n_vertices) for kind in kinds])
+
+
+def with_ring(t: Topology, ours: Mask) -> tuple[Topology, Indices, Mask]:
+    """Some faces with the ring round them and nothing else, which vertices are left, and which faces are still ours."""
+    k = t.n_halfedges // t.n_faces
+    near = np.zeros(t.n_vertices, dtype=bool)
+    near[t.origin.reshape(-1, k)[ours]] = True
+    kept = near[t.origin].reshape(-1, k).any(axis=1)
+    h = np.flatnonzero(np.repeat(kept, k))
+    vertices, edges = (_marked(part[h], n) for part, n in ((t.origin, t.n_vertices), (t.edge, t.n_edges)))
+    new = np.full(t.n_halfedges + 1, -1)  # the last stands for what -1 points to
+    new[h] = np.arange(len(h))
+    part = Topology(
+        origin=(np.cumsum(vertices) - 1)[t.origin[h]],
+        next=new[t.next[h]],
+        twin=new[t.twin[h]],
+        edge=(np.cumsum(edges) - 1)[t.edge[h]],
+        face=np.repeat(np.arange(len(h) // k), k),
+        n_vertices=int(vertices.sum()),
+        edge_sharpness=t.edge_sharpness[edges],
+        vertex_sharpness=t.vertex_sharpness[vertices],
+        hidden=t.hidden[kept],
+    )
+    return part, np.flatnonzero(vertices), ours[kept]
+
+
+def _marked(numbers: Indices, n: int) -> Mask:
+    mask = np.zeros(n, dtype=bool)
+    mask[numbers] = True
+    return mask
 
 
 def _fans(t: Topology, counts: Indices) -> tuple[Indices, list[Fan]]:

@@ -18,7 +18,7 @@ import numpy as np
 from subdivision import refine
 from subdivision.arrays import Floats, Indices
 from subdivision.kernels import Kernel
-from subdivision.rings import Kind, sorted_faces, unfolded
+from subdivision.rings import Kind, sorted_faces, unfolded, with_ring
 from subdivision.topology import Topology
 
 Kernels = Callable[[Topology], Kernel]
@@ -83,7 +83,7 @@ def template(k: int, depth: int) -> Template:
 
 
 def descendants(k: int, n_faces: int, depth: int) -> tuple[Indices, Indices]:
-    """After ``depth`` splits face ``f`` of ``n_faces`` has the small faces ``first + each * f``: ``first``, ``each``."""
+    """Face ``f`` of ``n_faces`` has, ``depth`` splits on, the small faces ``first + each * f``: ``first``, ``each``."""
     first, each = np.zeros(1, dtype=np.intp), np.ones(1, dtype=np.intp)
     for _ in range(depth):
         if k == 4:
@@ -172,10 +172,9 @@ class Tables:
         split = template(k, self.depth)
         numbers = np.empty((F, len(split.first)), dtype=np.intp)
         numbers[:, :k] = self.coarse.origin.reshape(F, k)
-        inside, sides = numbers[:, split.begins_inside :], numbers[:, k : split.begins_inside]
-        np.multiply(self.step[:F, None], np.arange(split.n_inside), out=inside)
-        inside += self.begin[:F, None]
-        sides[:] = (self.begin[F:, None] + self.step[F:, None] * np.arange(split.on_side)).reshape(F, -1)
+        sides = numbers[:, k : split.begins_inside].reshape(F, k, -1)
+        _counted(self.begin[F:].reshape(F, k), self.step[F:].reshape(F, k), sides)
+        _counted(self.begin[:F], self.step[:F], numbers[:, split.begins_inside :])
         first, each = descendants(k, F, self.depth)
         order = np.argsort(first)
         origin = np.empty((F * len(first), k), dtype=np.intp)
@@ -250,14 +249,25 @@ def _tables(kinds: tuple[Kind, ...], depth: int, kernels: Kernels) -> list[Float
     """(n_points, n_vertices) float for each kind: the points of the template from those of the ring."""
     k = len(kinds[0].fans)
     t, number = unfolded(kinds)
-    n_faces, points = t.n_faces, np.eye(int(number.max()) + 1)[number]
-    for _ in range(depth):
+    points = np.eye(int(number.max()) + 1)[number]
+    ours = np.arange(t.n_faces) < len(kinds)
+    for level in range(depth):
+        if level:
+            t, kept, ours = with_ring(t, ours)
+            points = points[kept]
         step = kernels(t)
-        t, points = step.refined(), step.apply(points)
-    first, each = descendants(k, n_faces, depth)
-    faces = first + each * np.arange(len(kinds))[:, None]
-    vertices = t.origin.reshape(-1, k)[faces].reshape(len(kinds), -1)[:, template(k, depth).first]
+        points, ours = step.apply(points), ours[t.face] if k == 4 else np.concatenate([ours[t.face], ours])
+        t = step.refined()
+    first, each = descendants(k, len(kinds), depth)
+    faces = t.origin.reshape(-1, k)[ours][first + each * np.arange(len(kinds))[:, None]]
+    vertices = faces.reshape(len(kinds), -1)[:, template(k, depth).first]
     return [points[own, : kind.n_vertices] for own, kind in zip(vertices, kinds, strict=True)]
+
+
+def _counted(begin: Indices, step: Indices, out: Indices) -> None:
+    """Count from ``begin`` by ``step`` along the last axis of ``out``."""
+    np.multiply(step[..., None], np.arange(out.shape[-1]), out=out)
+    out += begin[..., None]
 
 
 def _product(table: Floats, read: Floats, made: Floats) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, frozen
 from subdivision.manifold import TopologyError
-from subdivision.plan import plan
+from subdivision.plan import once
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step
@@ -243,5 +243,5 @@ def subdivide(control: Mesh, scheme: Scheme, levels: int) -> Mesh:
     Faces are numbered as by the stages; so are the vertices, unless there are many levels: ``Plan.numbers``
     then says where each one is.  For the same mesh with moved points keep the ``plan`` and apply it.
     """
-    told = plan(control.topology, scheme, levels)
-    return Mesh(told.topology, frozen(told.apply(control.points)))
+    made = once(control.topology, scheme, levels)
+    return Mesh(made.topology, frozen(made.apply(control.points)))
