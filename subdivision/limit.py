@@ -135,7 +135,7 @@ def _settled(scheme: Scheme, topology: Topology) -> tuple[Topology, Operator | N
     if (topology.edge_sharpness[topology.boundary] < INFINITELY_SHARP).any():
         raise TopologyError(
             "under the literal boundary rule the sheet shrinks at every level, and no limit rule is known; "
-            "choose another boundary"
+            "choose another boundary, or close the mesh"
         )
     levels = levels_to_settle(scheme, topology)
     faces = scheme.faces_after(topology, levels)
