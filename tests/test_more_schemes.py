@@ -263,6 +263,16 @@ def test_doo_sabin_corners_weigh_the_published_cosines(make: Callable[[], Mesh])
     assert str(DOO_SABIN.step(shapes.cube().topology).stencil(0)).startswith("9/16 v")
 
 
+@pytest.mark.parametrize("n", [3, 4, 5, 6, 9])
+def test_in_a_face_waves_shrink_by_a_half_once_round_and_by_a_quarter_else_or_by_midpoints_as_a_cosine(n: int) -> None:
+    t = prism(n).surface
+    shrinks = np.fft.fft(dense(DOO_SABIN, t)[:n, t.origin[:n]][0]).real
+    assert shrinks == pytest.approx([1 if k == 0 else 1 / 2 if k in (1, n - 1) else 1 / 4 for k in range(n)], abs=1e-12)
+    shrinks = np.fft.fft(dense(DOO_SABIN_MEAN, t)[:n, t.origin[:n]][0]).real
+    waves = np.cos(2 * pi * np.arange(n) / n)
+    assert shrinks[1:] == pytest.approx(1 / 2 + waves[1:] / 4, abs=1e-12)
+
+
 def test_the_mean_of_four_agrees_in_quads_and_in_no_other_face() -> None:
     for name, make in CLOSED.items():
         t = make().surface
