@@ -21,8 +21,8 @@ def is_open(state: State) -> bool:
 
 
 def enter(state: State) -> State:
-    """The laboratory as it was left; the first time with a cube on the table."""
-    return put(state, state.lab or lab_of(shapes.SHAPES[FIRST](), FIRST))
+    """Show the laboratory as it was left."""
+    return put(state, lab_in(state))
 
 
 def take(state: State, name: str) -> State:
@@ -32,7 +32,7 @@ def take(state: State, name: str) -> State:
 
 def replace_control(state: State, control: Mesh, name: str) -> State:
     """Another control object, under those of the rules that take it."""
-    lab = _of(state)
+    lab = lab_in(state)
     kept = tuple(rule for rule in lab.rules if rule.scheme.accepts(control.topology))
     rules = kept or (Rule(natural_family(control)),)
     return put(state, Lab(name, control, rules, max(lab.levels, 1)))
@@ -40,36 +40,36 @@ def replace_control(state: State, control: Mesh, name: str) -> State:
 
 def choose_family(state: State, pane: int, family: str) -> State:
     """Another scheme in a pane, at its usual parameters."""
-    return _with_rule(state, pane, replace(_of(state).rules[pane], family=family, parameters=(), telling=""))
+    return _with_rule(state, pane, replace(lab_in(state).rules[pane], family=family, parameters=(), telling=""))
 
 
 def choose_parameter(state: State, pane: int, number: int, value: Value) -> State:
     """Another value of a scheme's parameter in a pane."""
-    rule = _of(state).rules[pane]
+    rule = lab_in(state).rules[pane]
     values = (*rule.values[:number], value, *rule.values[number + 1 :])
     return _with_rule(state, pane, replace(rule, parameters=values))
 
 
 def turn_parameter(state: State, pane: int, number: int, by: int) -> State:
     """A parameter some steps up or down, held within its limits."""
-    rule = _of(state).rules[pane]
+    rule = lab_in(state).rules[pane]
     parameter = FAMILIES[rule.family].parameters[number]
     return choose_parameter(state, pane, number, parameter.next(rule.values[number], by))
 
 
 def choose_telling(state: State, pane: int, telling: str) -> State:
     """The same matrix in other stages."""
-    return _with_rule(state, pane, replace(_of(state).rules[pane], telling=telling))
+    return _with_rule(state, pane, replace(lab_in(state).rules[pane], telling=telling))
 
 
 def choose_boundary(state: State, pane: int, boundary: Boundary) -> State:
     """What happens where the control object ends."""
-    return _with_rule(state, pane, replace(_of(state).rules[pane], boundary=boundary))
+    return _with_rule(state, pane, replace(lab_in(state).rules[pane], boundary=boundary))
 
 
 def compare(state: State) -> State:
     """One pane more: the next scheme that takes the control object."""
-    lab = _of(state)
+    lab = lab_in(state)
     if len(lab.rules) == MOST_PANES:
         raise TopologyError(f"{MOST_PANES} panes are as many as can be compared")
     families = [family.name for family in suiting(lab.control.topology)]
@@ -80,14 +80,14 @@ def compare(state: State) -> State:
 
 def drop(state: State, pane: int) -> State:
     """One pane less; the last one stays."""
-    lab = _of(state)
+    lab = lab_in(state)
     rules = lab.rules[:pane] + lab.rules[pane + 1 :]
     return put(state, replace(lab, rules=rules)) if rules else state
 
 
 def set_levels(state: State, levels: int) -> State:
     """As many levels, or what can be played well."""
-    return put(state, replace(_of(state), levels=max(levels, 1)))
+    return put(state, replace(lab_in(state), levels=max(levels, 1)))
 
 
 def put(state: State, lab: Lab) -> State:
@@ -99,11 +99,11 @@ def put(state: State, lab: Lab) -> State:
     state = settle(state)
     is_same = is_open(state) and state.lab is not None and state.lab.control is lab.control
     lesson = lesson_of(lab)
-    place = _same_place(state, lesson) if is_same else 0
+    place = same_place(state, lesson) if is_same else 0
     return at_stop(state, stops(lesson)[place], lab=lab, lesson=lesson, edits=state.edits if is_same else ())
 
 
-def _same_place(state: State, there: Lesson) -> int:
+def same_place(state: State, there: Lesson) -> int:
     """The stop of the new story that is as far as the state was: the same stage, else the same level."""
     old, new = stops(state.lesson), stops(there)
     here = next(k for k, s in enumerate(old) if (s.beat, s.at) >= (state.beat, state.at))
@@ -113,10 +113,11 @@ def _same_place(state: State, there: Lesson) -> int:
     return max(k for k, s in enumerate(new) if stop_level(there, s) <= level)
 
 
-def _of(state: State) -> Lab:
+def lab_in(state: State) -> Lab:
+    """The laboratory as it stands or was left; the first time with a cube on the table."""
     return state.lab or lab_of(shapes.SHAPES[FIRST](), FIRST)
 
 
 def _with_rule(state: State, pane: int, rule: Rule) -> State:
-    lab = _of(state)
+    lab = lab_in(state)
     return put(state, replace(lab, rules=(*lab.rules[:pane], rule, *lab.rules[pane + 1 :])))

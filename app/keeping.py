@@ -121,6 +121,7 @@ def _laboratory(lab: Lab) -> Table:
             for rule in lab.rules
         ],
         "levels": lab.levels,
+        "overlay": lab.overlay,
     }
 
 
@@ -338,10 +339,11 @@ def _spot(entry: Entry, state: State) -> Spot:
 
 
 def _lab(entry: Entry) -> Lab:
-    table = entry.table(("name", "object", "rules", "levels"))
+    table = entry.table(("name", "object", "rules", "levels"), may=("overlay",))
     control = _control(table["object"])
     rules = tuple(_rule(each, control) for each in table["rules"].rows(1, MOST_PANES))
-    lab = Lab(table["name"].words(), control, rules)
+    overlay = table["overlay"].whole(0, MOST_VECTORS) if "overlay" in table else 0
+    lab = Lab(table["name"].words(), control, rules, overlay=overlay)
     return replace(lab, levels=table["levels"].whole(0, affordable(lab)))
 
 

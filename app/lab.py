@@ -1,13 +1,16 @@
 """The laboratory: any control object under one to four rules, as a lesson made on the spot."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from lessons.measured import difference
 from lessons.script import Beat, Lesson, View, look_at
 from subdivision import Boundary, Mesh, Polyline, Role, Scheme, Stage, Topology, Trace, trace
-from subdivision.catalogue import FAMILIES, Value, scheme
+from subdivision.catalogue import FAMILIES, Value, Vectors, scheme
+from subdivision.passes import Vector, spelled
 from subdivision.rows import Grid
+from subdivision.schemes.box_spline import averaged, in_order, other_orders, shortened
 
 LABORATORY = "laboratory"
 SECTION = "Laboratory"
@@ -57,6 +60,17 @@ class Rule:
         tellings = list(self.scheme.tellings)
         return self.telling if self.telling in tellings else tellings[0]
 
+    @property
+    def vectors(self) -> Vectors:
+        """The vector set of a box spline; of all other rules ()."""
+        return next((v for v in self.values if isinstance(v, tuple)), ())
+
+    @property
+    def passes(self) -> Vectors:
+        """What a box spline averages along, in the order told."""
+        rest = tuple(averaged(self.vectors))
+        return rest[::-1] if self.told == "in reverse" else rest
+
     def bounded(self, control: Mesh) -> Mesh:
         """A control object with the rule's boundary, if it is a polygon mesh."""
         t = control.topology
@@ -65,12 +79,26 @@ class Rule:
 
 @dataclass(frozen=True, eq=False)
 class Lab:
-    """``control`` called ``name``, under ``rules``, ``levels`` times."""
+    """``control`` called ``name``, under ``rules``, ``levels`` times.
+
+    ``overlay`` is the number of another order of the leading box spline's passes, from 1, that lies over it; 0: none.
+    """
 
     name: str
     control: Mesh
     rules: tuple[Rule, ...]
     levels: int = LEVELS
+    overlay: int = 0
+
+    @property
+    def other(self) -> Rule | None:
+        """The leading box spline with its passes in the other order, where one lies over it."""
+        lead = self.rules[0]
+        orders = other_orders(lead.passes) if self.overlay and lead.vectors else ()
+        if not orders:
+            return None
+        passes = orders[(self.overlay - 1) % len(orders)]
+        return replace(lead, parameters=(in_order(passes),), telling="in order")
 
 
 def lab_of(mesh: Mesh, name: str) -> Lab:
@@ -110,8 +138,9 @@ def lesson_of(lab: Lab) -> Lesson:
     TopologyError
         If one of its rules refuses the control object.
     """
-    traces = tuple(_told(lab.control, rule, lab.levels) for rule in lab.rules)
-    made = Lesson(LABORATORY, titled(lab.name), SECTION, lambda: _beats(lab, traces))
+    rules = lab.rules if lab.other is None else (lab.rules[0], lab.other, *lab.rules[1:])
+    traces = tuple(_told(lab.control, rule, lab.levels) for rule in rules)
+    made = Lesson(LABORATORY, titled(lab.name), SECTION, lambda: _beats(lab, rules, traces))
     _ = made.beats
     return made
 
@@ -141,27 +170,48 @@ def _size(mesh: Mesh, rule: Rule, levels: int) -> int:
     t = mesh.topology
     if isinstance(t, Topology):
         return rule.scheme.faces_after(t, levels)
+    if isinstance(t, Grid) and rule.vectors:
+        return _left(t, shortened(rule.vectors), levels)
     return int(
         (t.n_vertices if isinstance(t, Polyline) else t.n_faces) * (2 if isinstance(t, Polyline) else 4) ** levels
     )
 
 
-def _beats(lab: Lab, traces: tuple[Trace, ...]) -> Iterator[Beat]:
+def _left(net: Grid, lost: Vector, levels: int) -> int:
+    """Faces of a net that every step shortens where it is open, then doubles."""
+    ends = zip(net.shape, lost, (net.wrap_s, net.wrap_t), strict=True)
+    sides = [n << levels if wrap else ((n - less) << levels) + less - 1 for n, less, wrap in ends]
+    return sides[0] * sides[1] * (1 + net.diagonal)
+
+
+def _beats(lab: Lab, rules: Sequence[Rule], traces: tuple[Trace, ...]) -> Iterator[Beat]:
     look = look_at(traces[0])
-    titles = [_title(rule) if len(lab.rules) > 1 else "" for rule in lab.rules]
-    yield Beat(
-        _opening(lab, traces[0]),
-        tuple(View(t, 0, 0, title=title) for t, title in zip(traces, titles, strict=True)),
-        look=look,
-    )
+    titles = [_title(rule) if len(rules) > 1 else "" for rule in rules]
+    yield Beat(_opening(lab, traces[0]), _views(lab, traces, titles, [(0, 0)] * len(traces)), look=look)
     for level in range(lab.levels):
         n = len(traces[0].step(level).stages)
         for k in range(n):
             stage = traces[0].stages[traces[0].begins(level) + k]
-            views = tuple(
-                View(t, *_stretch(t, level, k, n), title=title) for t, title in zip(traces, titles, strict=True)
-            )
-            yield Beat(_said(stage, level), views, look=look)
+            stretches = [_stretch(t, level, k, n) for t in traces]
+            yield Beat(_said(stage, level), _views(lab, traces, titles, stretches), look=look)
+
+
+def _views(
+    lab: Lab, traces: Sequence[Trace], titles: Sequence[str], stretches: Sequence[tuple[int, int]]
+) -> tuple[View, ...]:
+    """A pane for every rule; behind two orders of passes, one with the second laid over the first."""
+    panes = [View(t, *stretch, title=title) for t, title, stretch in zip(traces, titles, stretches, strict=True)]
+    if lab.other is not None:
+        panes.insert(2, replace(panes[0], title="One over the other", over=panes[1], reading=_apart))
+    return tuple(panes)
+
+
+def _apart(a: Mesh, b: Mesh) -> str:
+    """How far two orders are apart; on the way their nets have other shapes."""
+    if a.topology == b.topology:
+        return difference(a, b)
+    shapes = (f"{t.n_s} × {t.n_t}" for t in (a.topology, b.topology) if isinstance(t, Grid))
+    return f"on the way: {' and '.join(shapes)} points"
 
 
 def _stretch(t: Trace, level: int, k: int, n: int) -> tuple[int, int]:
@@ -171,6 +221,8 @@ def _stretch(t: Trace, level: int, k: int, n: int) -> tuple[int, int]:
 
 
 def _title(rule: Rule) -> str:
+    if rule.vectors and rule.told != "stencils":
+        return f"average {', '.join(map(spelled, rule.passes))}" if rule.passes else "quadruple only"
     boundary = f", {rule.boundary.value.replace('-', ' ')}" if rule.boundary is not Boundary.EDGE else ""
     return f"{rule.scheme.title}: {rule.told}{boundary}"
 
@@ -187,9 +239,16 @@ def _opening(lab: Lab, told: Trace) -> str:
 
 def _said(stage: Stage, level: int) -> str:
     has_face_points = bool((stage.roles[stage.born] == Role.FACE).any())
-    sentence = SENTENCES.get(stage.name, f"{stage.name[:1].upper()}{stage.name[1:]}.").format(
+    sentence = SENTENCES.get(stage.name, _named(stage)).format(
         and_faces="a point on every face, " if has_face_points else ""
     )
     is_new_mesh = stage.name in ("topology", "connect") and stage.topology.n_faces
     faces = f" {stage.topology.n_faces:,} faces." if is_new_mesh else ""
     return f"{'Again. ' if level else ''}{sentence}{faces}"
+
+
+def _named(stage: Stage) -> str:
+    """What the name of a stage says, as a sentence."""
+    if (direction := stage.name.removeprefix("average ")) != stage.name:
+        return f"Average along {direction}: every point goes half way to the next one there."
+    return f"{stage.name[:1].upper()}{stage.name[1:]}."

@@ -13,10 +13,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from app.lab import Lab
+from app.lab import LABORATORY, Lab
 from app.turn import REST, Turn
 from lessons.script import Beat, Lesson, View
 from subdivision import Trace
+from subdivision.catalogue import Vectors
 
 Edits: TypeAlias = tuple[tuple[int, tuple[float, float, float]], ...]
 """Control points that were dragged: (vertex, where to), one entry a vertex."""
@@ -64,6 +65,7 @@ class Options:
     legend: bool = True
     control: bool = False
     matrix: bool = False
+    lattice: bool = False
     as_caption: bool = False
     across: str = "step"
     theme: str = "light"
@@ -113,6 +115,12 @@ class State:
     @property
     def is_playing(self) -> bool:
         return self.goal is not None
+
+    @property
+    def vectors(self) -> Vectors:
+        """The vector set of the box spline that leads the laboratory; () where none does."""
+        is_lab = self.lab is not None and self.lesson.id == LABORATORY
+        return self.lab.rules[0].vectors if self.lab is not None and is_lab else ()
 
     def trace(self, view: View) -> Trace:
         """The view's trace on the control points as they were dragged."""

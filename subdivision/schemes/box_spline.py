@@ -34,7 +34,7 @@ def box_spline(vectors: Sequence[Vector]) -> Scheme:
         name="box-spline " + " ".join(f"{a},{b}" for a, b in chosen),
         title="Box spline of " + " ".join(f"({a},{b})" for a, b in chosen),
         paper="WW02",
-        refuses=partial(_refuses, lost=(sum(abs(a) for a, _ in rest), sum(abs(b) for _, b in rest))),
+        refuses=partial(_refuses, lost=shortened(chosen)),
         tellings={
             "in order": lambda t: told(t, passes),
             "in reverse": lambda t: told(t, [quadruple, *map(average, reversed(rest))]),
@@ -53,6 +53,24 @@ def averaged(vectors: Sequence[Vector]) -> list[Vector]:
             left[v] -= 1
             rest.append(v)
     return rest
+
+
+def in_order(passes: Sequence[Vector]) -> tuple[Vector, ...]:
+    """The vector set whose averaging passes are these, in this order: ``averaged`` gives them back."""
+    return (*passes, (1, 0), (0, 1))
+
+
+def other_orders(passes: Sequence[Vector]) -> tuple[tuple[Vector, ...], ...]:
+    """Other orders of some passes: in reverse, then that turned round and round; none where all are alike."""
+    behind = tuple(reversed(passes))
+    turned = (behind[k:] + behind[:k] for k in range(len(behind)))
+    return tuple(dict.fromkeys(order for order in turned if order != tuple(passes)))
+
+
+def shortened(vectors: Sequence[Vector]) -> Vector:
+    """By how many rows and columns a step shortens an open net, before it doubles what is left."""
+    rest = averaged(vectors)
+    return sum(abs(a) for a, _ in rest), sum(abs(b) for _, b in rest)
 
 
 def _refuses(t: Connectivity, lost: tuple[int, int]) -> str:
