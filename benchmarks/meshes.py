@@ -1,0 +1,48 @@
+"""Control meshes of any size, made here: solids, and closed, open and creased meshes of every valence."""
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from benchmarks.files import Control
+from subdivision import shapes
+
+
+def solid(name: str) -> Control:
+    mesh = shapes.SHAPES[name]()
+    return _control(name, mesh.points, np.array(mesh.surface.loops()))
+
+
+def ball(n: int) -> Control:
+    """The hull of ``n`` random points of a sphere: closed, triangles, valence 3 to 12 or so."""
+    points = np.random.default_rng(n).normal(size=(n, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    faces = ConvexHull(points).simplices.astype(np.intp)
+    a, b, c = (points[faces[:, k]] for k in range(3))
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    return _control(f"ball of {n} points", points, faces)
+
+
+def opened(control: Control) -> Control:
+    """Without the faces of a band of bites: a boundary through one face in twenty or so."""
+    middle = control.points[control.faces].mean(axis=1)
+    kept = control.faces[~((np.abs(middle[:, 2]) < 0.05) & (middle[:, 0] > 0))]
+    used = np.unique(kept)
+    number = np.zeros(len(control.points), dtype=np.intp)
+    number[used] = np.arange(len(used))
+    return _control(f"{control.name}, open", control.points[used], number[kept])
+
+
+def creased(control: Control, sharpness: float) -> Control:
+    """With creases along the edges that cross three planes."""
+    a = control.corners
+    b = np.roll(control.faces, -1, axis=1).ravel()
+    crosses = ((control.points[a] > 0) != (control.points[b] > 0)).any(axis=1) & (a < b)
+    creases = np.stack([a, b], axis=1)[crosses][::3]
+    name = f"{control.name}, creases of {sharpness:g}"
+    return Control(name, control.points, control.sizes, control.corners, creases, sharpness)
+
+
+def _control(name: str, points: np.ndarray, faces: np.ndarray) -> Control:
+    sizes = np.full(len(faces), faces.shape[1], dtype=np.intp)
+    return Control(name, np.array(points), sizes, faces.ravel().astype(np.intp), np.zeros((0, 2), dtype=np.intp))
