@@ -12,6 +12,7 @@ from time import perf_counter
 import lessons
 from app.draw.theme import THEMES
 from app.figures import BACKGROUNDS, FORMATS, LEAST, MOST, FigureError
+from app.state import State
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, Scheme, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
@@ -63,13 +64,34 @@ class Fault(Exception):
 
 
 def open_window(options: argparse.Namespace) -> int:
-    """Open the window, at a lesson and a step if they are named."""
+    """Open the window, at a lesson and a step if they are named; or at what a link or a file holds."""
+    from app.opening import meant
+    from app.strict import KeepingError
+
+    try:
+        found = meant(options.lesson or "")
+    except KeepingError as fault:
+        raise Fault(str(fault)) from fault
+    if found is not None:
+        return _open(*found, options)
     if options.set and not options.lesson:
         raise Fault("--set turns a knob of a lesson: name the lesson before it, such as 1 --set degree=5")
     (chosen,) = _turned([_lesson(options.lesson)], dict(options.set)) if options.lesson else (None,)
     from app.gui.application import run
 
     return run(chosen, options.step, options.theme, options.as_caption)
+
+
+def _open(opening: Callable[[State], State], path: Path | None, options: argparse.Namespace) -> int:
+    """Open the window at what was found, in the looks that are wished for."""
+    if options.set or options.step:
+        raise Fault("--set and --step go with a lesson; a link or a file has a place of its own: leave them out")
+    from app.gui.application import run
+    from app.state import choose
+
+    wished = {"theme": options.theme, "as_caption": options.as_caption}
+    looks = {name: value for name, value in wished.items() if value}
+    return run(theme=options.theme, opening=lambda state: choose(opening(state), **looks), path=path)
 
 
 def list_lessons(options: argparse.Namespace) -> None:
@@ -178,7 +200,10 @@ def _parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentPars
         epilog="commands (each has --help):\n"
         + "\n".join(f"  {name:<10} {text}" for name, (_, text) in COMMANDS.items()),
     )
-    parser.add_argument("lesson", nargs="?", metavar="LESSON", help="open at this lesson: a figure's number, or an id")
+    parser.add_argument(
+        "lesson", nargs="?", metavar="LESSON",
+        help="open at this lesson: a figure's number, or an id; or a link, a session, a mesh",
+    )  # fmt: skip
     parser.add_argument("--step", type=_counting, metavar="N", help="... and at its N-th step, from 1")
     _looks(parser)
     parser.set_defaults(run=open_window)

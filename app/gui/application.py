@@ -5,6 +5,7 @@ import logging
 import os
 import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
 
@@ -22,6 +23,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.draw.theme import THEMES
 from app.gui import look
+from app.gui.autosave import Autosave, folder
 from app.gui.look import system_theme
 from app.gui.session import Session
 from app.gui.window import NAME, Window
@@ -41,10 +43,18 @@ NO_OPENGL = (
 BUG = "Something went wrong inside the program. Your lesson is still open; the details are in {log}."
 
 
-def run(lesson: Lesson | None = None, step: int | None = None, theme: str = "", as_caption: bool = False) -> int:
+def run(
+    lesson: Lesson | None = None,
+    step: int | None = None,
+    theme: str = "",
+    as_caption: bool = False,
+    opening: Callable[[State], State] = lambda state: state,
+    path: Path | None = None,
+) -> int:
     """Open the window at a lesson and a step (from 1), and stay until it is closed; the exit status.
 
-    ``theme`` overrules the one that the window remembers.
+    ``theme`` overrules the one that the window remembers.  ``opening`` leads from there to what is
+    to be open; ``path`` is the file it was in, if it was.
     """
     if not has_screen():
         return _refuse(NO_SCREEN)
@@ -53,15 +63,23 @@ def run(lesson: Lesson | None = None, step: int | None = None, theme: str = "", 
         return _refuse(NO_OPENGL)
     log = keep_log()
     settings = settings_file()
-    window = Window(Session(first_state(lesson, step, theme or settings_theme(settings), as_caption)), settings)
+    state = opening(first_state(lesson, step, theme or settings_theme(settings), as_caption))
+    window = Window(Session(state), settings)
     catch_everything(window, log)
+    autosave = Autosave(window.session, folder())
+    autosave.failed.connect(window.say)
     window.show()
+    if path is not None:
+        window.opened(path)
+    window.offer_to_restore(autosave)
     QTimer.singleShot(0, window.viewport.start)
     signal.signal(signal.SIGINT, lambda *_: window.close())
     pulse = QTimer(interval=200)  # lets Python see Ctrl-C
     pulse.timeout.connect(lambda: None)
     pulse.start()
-    return int(app.exec())
+    status = int(app.exec())
+    autosave.end()
+    return status
 
 
 def application() -> QApplication:

@@ -30,21 +30,25 @@ class Banner(QWidget):
         self._cancel = QPushButton("Cancel")
         self._cancel.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self._cancel.clicked.connect(self._cancelled)
+        self.accept = QPushButton()
+        self.accept.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.accept.clicked.connect(self._accepted)
         self._close = tool_button("close", session.state.options.theme)
         self._close.setToolTip("Close this message (Esc)")
         self._close.setAccessibleName("Close this message")
         self._close.clicked.connect(self.hide)
         self._on_cancel: Callable[[], None] = self.hide
+        self._on_accept: Callable[[], None] = self.hide
         row = QHBoxLayout(self)
         row.setContentsMargins(2 * GRID, GRID, GRID, GRID)
         row.setSpacing(2 * GRID)
-        for each in (self.words, self._busy, self._cancel, self._close):
+        for each in (self.words, self._busy, self.accept, self._cancel, self._close):
             row.addWidget(each)
         self.hide()
 
     def show_state(self, state: State) -> None:
-        """A message goes when the lesson it was said in goes; what is still under way stays."""
-        if state.lesson is not self._said_in and self._busy.isHidden():
+        """A message goes when the lesson it was said in goes; what is still under way or offered stays."""
+        if state.lesson is not self._said_in and self._busy.isHidden() and self.accept.isHidden():
             self.hide()
         if not self.isHidden():
             self._close.setIcon(icon("close", state.options.theme))
@@ -57,6 +61,12 @@ class Banner(QWidget):
         """Something went well."""
         self._set(sentence, is_fault=False, is_busy=False)
 
+    def offer(self, sentence: str, name: str, on_accept: Callable[[], None]) -> None:
+        """Something that a button would do."""
+        self._on_accept = on_accept
+        self.accept.setText(name)
+        self._set(sentence, is_fault=False, is_busy=False, is_offer=True)
+
     def wait(self, sentence: str, on_cancel: Callable[[], None]) -> None:
         """Something takes a while."""
         self._on_cancel = on_cancel
@@ -67,15 +77,20 @@ class Banner(QWidget):
         if not self._busy.isHidden():
             self.hide()
 
-    def _set(self, sentence: str, *, is_fault: bool, is_busy: bool) -> None:
+    def _set(self, sentence: str, *, is_fault: bool, is_busy: bool, is_offer: bool = False) -> None:
         self._is_fault, self._said_in = is_fault, self._session.state.lesson
         self.words.setText(sentence)
         self.setAccessibleName(sentence)
         self._close.setIcon(icon("close", self._session.state.options.theme))
         self._busy.setVisible(is_busy)
         self._cancel.setVisible(is_busy)
+        self.accept.setVisible(is_offer)
         self._close.setVisible(not is_busy)
         self.show()
+
+    def _accepted(self) -> None:
+        self.hide()
+        self._on_accept()
 
     def _cancelled(self) -> None:
         self.hide()

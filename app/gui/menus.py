@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from app.gui.window import Window
 
 MENUS = (
-    ("File", ("open", "", "save", "copy", "", "quit")),
+    ("File", ("open", "@Recent", "", "save", "save_as", "copy_link", "paste_link", "", "save_picture", "copy", "",
+              "quit")),
     ("Edit", ("undo", "redo")),
     ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "", *(f"across_{k}" for k in ACROSS), "",
               "camera", "contents", "shown")),
@@ -31,7 +32,7 @@ MENUS = (
 
 def fill(window: "Window") -> None:
     """Hang all menus into the window's menu bar."""
-    inside = {"@Theme": _themes, "@Speed": _speeds, "@Lessons": _lessons}
+    inside = {"@Recent": _recent, "@Theme": _themes, "@Speed": _speeds, "@Lessons": _lessons}
     for name, ids in MENUS:
         menu = window.menuBar().addMenu(name)
         for id_ in ids:
@@ -41,6 +42,22 @@ def fill(window: "Window") -> None:
                 inside[id_](window, menu.addMenu(id_[1:]))
             else:
                 menu.addAction(window.actions_by_id[id_])
+
+
+def _recent(window: "Window", menu: QMenu) -> None:
+    menu.setTitle("Open recent")
+    menu.setToolTipsVisible(True)
+    menu.aboutToShow.connect(lambda: _list_recent(window, menu))
+
+
+def _list_recent(window: "Window", menu: QMenu) -> None:
+    menu.clear()
+    for path in window.document.recent():
+        action = menu.addAction(path.name.replace("&", "&&"))
+        action.setToolTip(str(path))
+        action.triggered.connect(lambda _, path=path: window.open_recent(path))
+    if menu.isEmpty():
+        menu.addAction(window.actions_by_id["open"])
 
 
 def _themes(window: "Window", menu: QMenu) -> None:

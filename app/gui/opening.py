@@ -1,16 +1,17 @@
-"""Reads a mesh file off the window's thread, and puts it into the laboratory."""
+"""Reads a file off the window's thread: a mesh for the laboratory, or a session."""
 
 import logging
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
 
-from app.bench import put
 from app.gui.banner import Banner
 from app.gui.session import Session
-from app.lab import Lab, lab_of, lesson_of
+from app.opening import Opening, opening
+from app.strict import KeepingError
 from subdivision import TopologyError
-from subdivision.files import FileError, read
+from subdivision.files import FileError
 
 PATIENCE = 100
 """Milliseconds before a wait is announced."""
@@ -19,11 +20,11 @@ LOG = logging.getLogger(__name__)
 
 
 class Opener(QObject):
-    """One file at a time; a newer wish replaces an older one."""
+    """One file at a time; a newer wish replaces an older one.  ``opened`` is told what has been opened."""
 
-    def __init__(self, session: Session, banner: Banner) -> None:
+    def __init__(self, session: Session, banner: Banner, opened: Callable[[Path], None]) -> None:
         super().__init__(session)
-        self._session, self._banner = session, banner
+        self._session, self._banner, self._opened = session, banner, opened
         self._job: _Job | None = None
         self._running: set[_Job] = set()  # a job must outlive its run, wanted or not
         self._patience = QTimer(self, singleShot=True, interval=PATIENCE)
@@ -47,10 +48,11 @@ class Opener(QObject):
         if self._job is not None:
             self._banner.wait(f"Reading {self._job.path.name} …", self._forget)
 
-    def _done(self, job: object, lab: Lab) -> None:
+    def _done(self, job: "_Job", found: Opening) -> None:
         if job is self._job:
             self._forget()
-            self._session.do(put, lab)
+            self._session.do(found)
+            self._opened(job.path)
 
     def _failed(self, job: object, sentence: str) -> None:
         if job is self._job:
@@ -78,10 +80,8 @@ class _Job(QRunnable):
 
     def run(self) -> None:
         try:
-            lab = lab_of(read(self.path), self.path.stem)
-            lesson_of(lab)  # here, where nobody waits for a picture
-            self.told.done.emit(self, lab)
-        except (FileError, TopologyError) as fault:
+            self.told.done.emit(self, opening(self.path))
+        except (FileError, KeepingError, TopologyError) as fault:
             self.told.failed.emit(self, str(fault))
         except MemoryError:
             self.told.failed.emit(self, f"{self.path.name} is too large for this computer's memory.")

@@ -98,6 +98,11 @@ class Session(QObject):
         self.do(tick, seconds * self.state.options.speed / STAGE)
 
 
+def is_same_picture(one: State, other: State) -> bool:
+    """Whether two states rest at the same picture: nothing between them could be undone."""
+    return _parts(_plain(settle(one))) == _parts(_plain(settle(other)))
+
+
 def _parts(state: State) -> tuple[Any, ...]:
     return tuple(getattr(state, each.name) for each in fields(state))
 

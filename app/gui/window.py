@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QHBoxLayout,
     QMainWindow,
+    QMessageBox,
     QScrollArea,
     QSplitter,
     QToolButton,
@@ -26,8 +27,10 @@ from PySide6.QtWidgets import (
 import lessons
 from app.draw.theme import THEMES
 from app.gui import menus, saving
+from app.gui.autosave import Autosave
 from app.gui.banner import Banner
 from app.gui.contents import Contents
+from app.gui.document import Document
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
 from app.gui.laboratory import Laboratory
@@ -41,8 +44,11 @@ from app.gui.shown import Shown
 from app.gui.timeline import Timeline, tool_button
 from app.gui.viewport import Viewport
 from app.gui.why import Why
+from app.keeping import SUFFIX, taken_up
+from app.link import followed, link
+from app.opening import OPENABLE
 from app.state import State, choose
-from subdivision.files import READABLE
+from app.strict import KeepingError
 
 NAME = "Subdivision Studio"
 LEFT, RIGHT = 200, 200
@@ -63,7 +69,8 @@ class Window(QMainWindow):
     def __init__(self, session: Session, settings: QSettings) -> None:
         super().__init__()
         self.session, self.settings = session, settings
-        self.setWindowTitle(NAME)
+        self.document = Document(session, settings)
+        self._entitle()
         self.setAcceptDrops(True)
         self.setMinimumSize(720, 480)
         self._theme = ""
@@ -76,7 +83,7 @@ class Window(QMainWindow):
         self.laboratory = Laboratory(session, self.banner.say)
         self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
         self._build()
-        self.opener = Opener(session, self.banner)
+        self.opener = Opener(session, self.banner, self.opened)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
@@ -102,6 +109,7 @@ class Window(QMainWindow):
                 action.setChecked(on(state.options))
         self.actions_by_id["undo"].setEnabled(self.session.can_undo)
         self.actions_by_id["redo"].setEnabled(self.session.can_redo)
+        self.setWindowModified(self.document.is_modified)
         self.actions_by_id["play"].setIcon(icon("pause" if state.is_playing else "play", state.options.theme))
         if state.options.presenting != self._is_presenting:
             self._present(state.options.presenting)
@@ -167,15 +175,84 @@ class Window(QMainWindow):
         self.session.do(choose, theme=system_theme() if name == "system" else name)
 
     def choose_file(self) -> None:
-        patterns = " ".join(f"*{suffix}" for suffix in READABLE)
-        path, _ = QFileDialog.getOpenFileName(self, "Open a mesh", self._folder("meshes"), f"Meshes ({patterns})")
+        patterns = " ".join(f"*{suffix}" for suffix in OPENABLE)
+        names = f"Meshes and sessions ({patterns})"
+        path, _ = QFileDialog.getOpenFileName(self, "Open a mesh or a session", self._folder("meshes"), names)
         if path:
             self.settings.setValue("folder_meshes", str(Path(path).parent))
             self.open_file(path)
 
     def open_file(self, path: str) -> None:
-        """Read a mesh file and make a lesson of it; what is open stays until that has worked."""
+        """Read a mesh or a session; what is open stays until that has worked."""
         self.opener.open(path)
+
+    def open_recent(self, path: Path) -> None:
+        """Open a file again, or say that it has gone."""
+        if path.exists():
+            self.open_file(str(path))
+            return
+        self.document.forget(path)
+        self.banner.say(f"{path} is no longer there, so it is no longer in the list; open it from where it is now.")
+
+    def opened(self, path: Path) -> None:
+        """A file has been opened: a session stays open, a mesh is in the laboratory."""
+        if path.suffix.lower() == SUFFIX:
+            self.document.opened(path, self.session.state)
+        else:
+            self.document.remember(path)
+        self._entitle()
+
+    def save_session(self) -> None:
+        """Save the session into its file; into a new one if it has none."""
+        if self.document.path is None:
+            self.save_session_as()
+        else:
+            self.save_session_to(self.document.path)
+
+    def save_session_as(self) -> None:
+        suggested = self.document.path or Path(self._folder("sessions")) / f"{self.session.state.lesson.id}{SUFFIX}"
+        path, _ = QFileDialog.getSaveFileName(self, "Save the session", str(suggested), f"Sessions (*{SUFFIX})")
+        if path:
+            self.settings.setValue("folder_sessions", str(Path(path).parent))
+            self.save_session_to(Path(path))
+
+    def save_session_to(self, path: Path) -> None:
+        """Keep what is open in a file, which is then the one that is open."""
+        try:
+            written = self.document.save(path)
+        except KeepingError as fault:
+            self.banner.say(str(fault))
+        else:
+            self.banner.tell(f"Saved {written}")
+            self._entitle()
+
+    def copy_link(self) -> None:
+        """Put a link to what is open on the clipboard."""
+        try:
+            QGuiApplication.clipboard().setText(link(self.session.state))
+        except KeepingError as fault:
+            self.banner.say(str(fault))
+        else:
+            self.banner.tell("The link is on the clipboard: 'subdivision-studio LINK' or Ctrl+V opens just this.")
+
+    def paste_link(self) -> None:
+        """Open what the link on the clipboard stands for."""
+        try:
+            self.session.do(taken_up, followed(QGuiApplication.clipboard().text()))
+        except KeepingError as fault:
+            self.banner.say(str(fault))
+
+    def offer_to_restore(self, autosave: Autosave) -> None:
+        """Offer what a crash has left, if it has left anything."""
+        if autosave.left is not None:
+            sentence = "The program did not end properly last time."
+            self.banner.offer(sentence, "Restore what was open", lambda: self._restore_left(autosave))
+
+    def _restore_left(self, autosave: Autosave) -> None:
+        try:
+            self.session.do(autosave.restored())
+        except KeepingError as fault:
+            self.banner.say(str(fault))
 
     def save_picture(self) -> None:
         suggested = str(Path(self._folder("pictures")) / f"{self.session.state.lesson.id}.png")
@@ -269,6 +346,12 @@ class Window(QMainWindow):
 
     # -- the window itself ----------------------------------------------------------------------
 
+    def _entitle(self) -> None:
+        """The file's name in the title, with a star for what is not saved."""
+        path = self.document.path
+        self.setWindowTitle(f"{path.name}[*] – {NAME}" if path else NAME)
+        self.setWindowModified(self.document.is_modified)
+
     def _present(self, is_on: bool) -> None:
         """Nothing but the picture, on the whole screen; or everything as it was."""
         self._is_presenting = is_on
@@ -312,6 +395,20 @@ class Window(QMainWindow):
         self.settings.setValue("details", "shown" if self._wants_details else "hidden")
         self.settings.sync()
 
+    def _may_close(self) -> bool:
+        """Whether the window may close, after asking what becomes of what is not saved."""
+        answer = self.ask_to_save()
+        if answer == QMessageBox.StandardButton.Save:
+            self.save_session()
+        is_done = answer == QMessageBox.StandardButton.Save and not self.document.is_modified
+        return is_done or answer == QMessageBox.StandardButton.Discard
+
+    def ask_to_save(self) -> QMessageBox.StandardButton:
+        """Save, discard or cancel."""
+        path, choices = self.document.path, QMessageBox.StandardButton
+        question = f"Save the changes to {path.name if path else NAME}?"
+        return QMessageBox.question(self, NAME, question, choices.Save | choices.Discard | choices.Cancel)
+
     def _folder(self, kind: str) -> str:
         return str(self.settings.value(f"folder_{kind}", str(Path.home())))
 
@@ -334,14 +431,17 @@ class Window(QMainWindow):
             sheet.setGeometry(self.rect())
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
-        if any(Path(u.toLocalFile()).suffix.lower() in READABLE for u in event.mimeData().urls()):
+        if any(Path(u.toLocalFile()).suffix.lower() in OPENABLE for u in event.mimeData().urls()):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:
         paths = [u.toLocalFile() for u in event.mimeData().urls()]
-        self.open_file(next(p for p in paths if Path(p).suffix.lower() in READABLE))
+        self.open_file(next(p for p in paths if Path(p).suffix.lower() in OPENABLE))
 
     def closeEvent(self, event: QCloseEvent) -> None:
+        if self.document.is_modified and not self._may_close():
+            event.ignore()
+            return
         self.session.stop()
         self.session.changed.disconnect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.disconnect(self._follow_system)

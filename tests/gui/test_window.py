@@ -347,7 +347,7 @@ def test_a_long_read_says_so_and_can_be_cancelled(qtbot, window, tmp_path, monke
         done.wait(5)
         return shapes.cube()
 
-    monkeypatch.setattr("app.gui.opening.read", slow)
+    monkeypatch.setattr("subdivision.files.read", slow)
     before = values(window.session.state)
     window.open_file(str(tmp_path / "large.obj"))
     qtbot.waitUntil(lambda: "large.obj" in window.banner.words.text(), timeout=2000)

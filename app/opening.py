@@ -1,0 +1,50 @@
+"""What a file or a link leads to, as a transition of the state."""
+
+import os
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TypeAlias
+
+from app.bench import put
+from app.keeping import SUFFIX, read, taken_up
+from app.lab import lab_of, lesson_of
+from app.link import followed, is_link
+from app.state import State
+from subdivision import files
+
+OPENABLE = (*files.READABLE, SUFFIX)
+"""Suffixes of what can be opened."""
+
+Opening: TypeAlias = Callable[[State], State]
+
+
+def is_file(name: str) -> bool:
+    """Whether a word of the command line means a file, not a lesson."""
+    return os.sep in name or Path(name).suffix.lower() in OPENABLE
+
+
+def opening(path: Path) -> Opening:
+    """The session in a file; or the mesh in it, in the laboratory.
+
+    Raises
+    ------
+    KeepingError, FileError, TopologyError
+    """
+    if path.suffix.lower() == SUFFIX:
+        return partial(taken_up, other=read(path))
+    lab = lab_of(files.read(path), path.stem)
+    lesson_of(lab)  # here, where perhaps nobody waits for a picture
+    return partial(put, lab=lab)
+
+
+def meant(name: str) -> tuple[Opening, Path | None] | None:
+    """What a word of the command line leads to, and the file it is; None if it can only be a lesson.
+
+    Raises
+    ------
+    KeepingError, FileError, TopologyError
+    """
+    if is_link(name):
+        return partial(taken_up, other=followed(name)), None
+    return (opening(Path(name)), Path(name)) if is_file(name) else None
