@@ -10,7 +10,6 @@ from subdivision.schemes import QUAD_CENTROID, tensor_product
 
 LOOK = Look(azimuth=-65.0, elevation=60.0)
 PANES = Look(azimuth=-65.0, elevation=60.0, zoom=0.88)
-WIDE = Look(azimuth=-65.0, elevation=60.0, zoom=0.6)
 """Far enough to see all that a stencil reads."""
 
 
@@ -39,10 +38,10 @@ def figure_12_bicubic() -> Iterator[Beat]:
                look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$",
                notes="All centroids come from the mesh before it moves, and all vertices move together.",
                claim=geometry.moves and inside == 25)
-    yield show(told, geometry, "A vertex reads nine points: 36, 6 and 1 sixty-fourths.", look=WIDE, span=3,
+    yield show(told, geometry, "A vertex reads nine points: 36, 6 and 1 sixty-fourths.", look=LOOK, span=3,
                stencil=told.whole.stencil(vertex), formula=r"$\dfrac{36\,V + 6 \sum E_i + \sum F_i}{64}$",
                claim=sorted(64 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 6, 6, 6, 6, 36])
-    yield show(told, geometry, "An edge point reads six: 6 and 1 sixteenths.", look=WIDE, span=3,
+    yield show(told, geometry, "An edge point reads six: 6 and 1 sixteenths.", look=LOOK, span=3,
                stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{6\,(A+B) + C + D + E + F}{16}$",
                claim=sorted(16 * told.whole.stencil(edge_point).weights) == [1, 1, 1, 1, 6, 6])
     yield side_by_side("Topology keeps the shape, geometry smooths it: together they are one level of the bicubic "

@@ -10,7 +10,6 @@ from subdivision.schemes import TRIANGLE_CENTROID
 
 LOOK = Look(azimuth=-62.0, elevation=58.0)
 PANES = Look(azimuth=-62.0, elevation=58.0, zoom=0.88)
-WIDE = Look(azimuth=-62.0, elevation=58.0, zoom=0.62)
 """Far enough to see all that a stencil reads."""
 
 
@@ -36,9 +35,9 @@ def figure_22_quartic() -> Iterator[Beat]:
     yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of its own weighted centroids.",
                look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves)
     yield show(told, geometry, "A new edge point takes three eighths of each end, one eighth of each opposite corner.",
-               look=WIDE, span=3, stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{3\,(A+B) + C + D}{8}$",
+               look=LOOK, span=3, stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{3\,(A+B) + C + D}{8}$",
                claim=sorted(8 * told.whole.stencil(edge_point).weights) == [1, 1, 3, 3])
-    yield show(told, geometry, "A vertex keeps ten sixteenths and takes one of each neighbour.", look=WIDE, span=3,
+    yield show(told, geometry, "A vertex keeps ten sixteenths and takes one of each neighbour.", look=LOOK, span=3,
                stencil=told.whole.stencil(vertex), formula=r"$\dfrac{10\,V + \sum N_i}{16}$",
                claim=sorted(16 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 1, 1, 10])
     yield side_by_side("Topology keeps the shape, geometry smooths it: together they are one level of the quartic "

@@ -2,13 +2,16 @@
 
 import re
 import string
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import lessons
 from app.draw.compose import compose
+from app.draw.layout import overlay
 from app.draw.picture import Diagram, Scene
+from app.draw.primitives import Text
 from app.draw.theme import NAMES, THEMES
 from app.state import at_stop, choose, drag, seek, segments, start, stops
 from lessons.script import EXTRAORDINARY, Lesson
@@ -61,6 +64,18 @@ def test_a_pointed_out_stencil_shows_one_weight_for_each_contributor(lesson: Les
         for view, pane in zip(beat.views, panes, strict=True):
             if view.stencil is not None and isinstance(pane.content, Scene):
                 assert len(pane.content.labels) == len(view.stencil.terms) + len(view.marks)
+
+
+@each_lesson
+def test_every_weight_of_a_lessons_stencil_is_on_the_picture(lesson: Lesson):
+    for beat in lesson.beats:
+        picture = compose(_ends(lesson, beat))
+        for view, pane in zip(beat.views, picture.panes, strict=True):
+            if view.stencil is not None and isinstance(pane.content, Scene):
+                only = replace(picture, panes=(pane,), title="", caption="", formula="", corner="", legend=())
+                words = [each.text for each in overlay(only, 1920, 1080) if isinstance(each, Text)]
+                wanted = [label.text for label in pane.content.labels]
+                assert sorted(w for w in words if w in wanted) == sorted(wanted)
 
 
 @each_lesson

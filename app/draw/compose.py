@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import accumulate, pairwise
 
-from app.draw import diagrams, matrices, motion, stencils
+from app.draw import diagrams, lattice, matrices, motion, stencils
 from app.draw.framing import camera
 from app.draw.isophotes import isophotes
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
@@ -18,6 +18,7 @@ from app.draw.theme import NAMES, Theme, theme_of
 from app.state import Spot, State, level_of
 from lessons.script import Beat, Kind, View
 from subdivision import Mesh, Polyline, Role, TopologyError
+from subdivision.arrays import Floats
 
 WITH_MATRIX = 0.56
 """The part of the width that is left to the views beside the matrices."""
@@ -36,10 +37,11 @@ def compose(state: State) -> Picture:
         Pane(_content(state, view, theme, rect[2] * rect[3]), rect, view.title, _measured(state, view))
         for view, rect in zip(beat.views, _rects(beat), strict=True)
     )
-    if state.options.matrix and (lead := _leading_scene(state)) is not None:
+    if asides := _asides(state, theme):
+        tall = 1 / len(asides)
         panes = (
             *(_narrowed(pane) for pane in panes),
-            Pane(_matrix(state, lead, theme), (WITH_MATRIX, 0, 1 - WITH_MATRIX, 1)),
+            *(Pane(each, (WITH_MATRIX, k * tall, 1 - WITH_MATRIX, tall)) for k, each in enumerate(asides)),
         )
     return Picture(
         panes=panes,
@@ -54,6 +56,15 @@ def compose(state: State) -> Picture:
         stroke=theme.stroke,
         scale=theme.type,
     )
+
+
+def _asides(state: State, theme: Theme) -> tuple[Diagram, ...]:
+    """What stands beside the views, one under another: the matrices of the step, the vectors of a box spline."""
+    lead = _leading_scene(state)
+    shown = [_matrix(state, lead, theme)] if state.options.matrix and lead is not None else []
+    if state.options.lattice and state.vectors:
+        shown.append(lattice.lattice(state.vectors, theme))
+    return tuple(shown)
 
 
 def _leading_scene(state: State) -> View | None:
@@ -136,12 +147,19 @@ def _content(state: State, view: View, theme: Theme, share: float) -> Scene | Di
     if view.kind is Kind.STENCIL and view.stencil is not None:
         return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme)
     # of the trace as the lesson has it: dragging a point moves no camera
-    seen = camera(view.trace, view.look or state.now.look)
+    seen = camera(view.trace, view.look or state.now.look, _contributors(view))
     over = shown_mesh(state, view.over) if view.over is not None else None
     options = replace(state.options, net=False) if view.isophotes else state.options
     made = scene(trace.frame(motion.eased(at)), trace, seen, options, theme, row, view.marks, over, share)
     bands = tuple(isophotes(faces, theme.ink, 2.4 * theme.stroke) for faces in made.faces if view.isophotes)
     return replace(made, lines=(*made.lines, *bands))
+
+
+def _contributors(view: View) -> Floats | None:
+    """Where the points are that the lesson's own stencil reads: the camera must see them."""
+    if view.stencil is None:
+        return None
+    return view.trace.points[int(view.stop) - view.span][view.stencil.parents]
 
 
 def _measured(state: State, view: View) -> str:

@@ -26,12 +26,13 @@ RING = 1.3
 """How far round a fragment the camera sees."""
 
 
-def camera(trace: Trace, look: Look) -> Camera:
+def camera(trace: Trace, look: Look, also: Floats | None = None) -> Camera:
     """A camera that sees the whole control object in the direction of ``look``; it ignores the stage on purpose.
 
-    Of a fragment it sees what is not hidden, and something of the faint ring.
+    Of a fragment it sees what is not hidden, and something of the faint ring; in any case what is in ``also`` (n, 3).
     """
     points = _looked_at(trace.control)
+    points = points if also is None else np.vstack([points, also])
     centre = (points.min(axis=0) + points.max(axis=0)) / 2
     radius = max(float(np.linalg.norm(points - centre, axis=1).max()), 1e-9)
     azimuth, elevation = np.radians(look.azimuth), np.radians(look.elevation)

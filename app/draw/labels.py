@@ -60,7 +60,7 @@ def _best(
     wide, up, down = measure(label.text, size)
     tall = up + down
     here = discs[np.hypot(discs[:, 0] - at[0], discs[:, 1] - at[1]) < discs[:, 2]]
-    clear = here[:, 2].max(initial=0.0) + 0.25 * max(*np.abs(label.away)) * unit
+    clear = here[:, 2].max(initial=0.0) + 0.5 * max(*np.abs(label.away)) * unit
     first = np.array(label.away) / max(*np.abs(label.away), 1e-9)
     ways = np.vstack([first, DIRECTIONS]) if max(*np.abs(label.away)) else DIRECTIONS
     rings, turn = (m.ravel() for m in np.meshgrid(RINGS, np.arange(len(ways)), indexing="ij"))
