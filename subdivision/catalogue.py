@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from math import ceil, floor
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -30,10 +31,14 @@ class Parameter:
     is_vectors: bool = False
 
     def next(self, value: Value, by: int) -> Value:
-        """``by`` steps on, held within the limits; vectors have no next."""
+        """``by`` whole steps on, from between two the first is to the nearest; held within the limits.
+
+        Vectors have no next.
+        """
         if not isinstance(value, int | Fraction):
             return value
-        there = min(max(value + by * self.step, self.least), self.most)
+        steps = Fraction(value - self.least) / self.step
+        there = min(max(self.least + ((floor if by > 0 else ceil)(steps) + by) * self.step, self.least), self.most)
         return int(there) if isinstance(self.start, int) else Fraction(there)
 
 
@@ -62,11 +67,15 @@ def _four_point(tension: Fraction) -> Scheme:
 
 _TENSION = Parameter("tension", Fraction(1, 16), Fraction(0), Fraction(1, 8), Fraction(1, 64))
 
+_PULL = Parameter("pull", Fraction(1), Fraction(0), Fraction(2), Fraction(1, 16))
+
 
 FAMILIES: Mapping[str, Family] = MappingProxyType({
     family.name: family
     for family in (
         *(Family(each.name, each.title, lambda each=each: each) for each in schemes.SCHEMES),
+        Family("triangle-pull", "Triangles, part of the way", schemes.triangle_pull, (_PULL,)),
+        Family("quad-pull", "Quads, part of the way", schemes.quad_pull, (_PULL,)),
         Family("lane-riesenfeld", "Lane-Riesenfeld", schemes.lane_riesenfeld, (_degree("degree", 3),)),
         Family("chaikin", schemes.CHAIKIN.title, lambda: schemes.CHAIKIN),
         Family("four-point", "Four-point scheme", _four_point, (_TENSION,)),

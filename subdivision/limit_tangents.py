@@ -9,17 +9,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from math import cos, pi, sqrt
 from typing import TypeAlias
 
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask
-from subdivision.exact import Exact, Formula, cosine, quotient, sine
+from subdivision.exact import Exact, cosine, quotient, sine
 from subdivision.fans import Corner, dart_ends, weighed
 from subdivision.limit_rules import corners_of, quad_dart, triangle_dart
 from subdivision.operators import Operator
 from subdivision.sharpness import CORNER, CREASE, SMOOTH, vertex_rules
+from subdivision.smoothness import are_quads_smooth, are_triangles_smooth, quad_lambda, triangle_lambda
 from subdivision.topology import Topology
 from subdivision.weights import by_count
 
@@ -54,33 +54,15 @@ class Ring:
 
 
 def quad_tangents(t: Topology, pull: Callable[[int], Exact | int]) -> tuple[Operator, Operator]:
-    """Two directions that span the tangent plane of every vertex; zero where there is not one such plane."""
-    return _tangents(t, QUADS, t.valence >= 3, lambda n: quad_dart(n, float(pull(n)) / 4))
+    """Two directions that span the tangent plane of every vertex; zero where there is not one such plane (at tips)."""
+    smooth = by_count(lambda n: int(are_quads_smooth(n, pull(n))), t.valence).values > 0
+    return _tangents(t, QUADS, smooth, lambda n: quad_dart(n, float(pull(n)) / 4))
 
 
 def triangle_tangents(t: Topology, beta: Callable[[int], Exact | int]) -> tuple[Operator, Operator]:
     """Likewise; there is none where ``beta`` makes a tip (centroid averaging at valence 3)."""
-    smooth = by_count(lambda n: int(is_smooth(n, beta(n))), t.valence).values > 0
+    smooth = by_count(lambda n: int(are_triangles_smooth(n, beta(n))), t.valence).values > 0
     return _tangents(t, TRIANGLES, smooth, lambda n: triangle_dart(n, float(beta(n))))
-
-
-def is_smooth(n: int, beta: Exact | int) -> bool:
-    """Whether a triangle scheme is C1 at valence ``n``: 5/8 - n beta must be smaller than 3/8 + cos(2 pi/n)/4."""
-    return n >= 3 and abs(float(Fraction(5, 8) - n * beta)) < float(triangle_lambda(n))
-
-
-def quad_lambda(n: int) -> Exact:
-    """``(5 + c + cos(pi/n) sqrt(2 (9 + c)))/16`` with ``c = cos(2 pi/n)``: what a ring shrinks by [Stam98]_."""
-    if n in (2, 4):
-        return Fraction(n, 8)
-    c = cos(2 * pi / n)
-    text = f"(5 + c + cos(π/{n})·sqrt(18 + 2c))/16, c = cos(2π/{n})"
-    return Formula(text, (5 + c + cos(pi / n) * sqrt(2 * (9 + c))) / 16)
-
-
-def triangle_lambda(n: int) -> Exact:
-    """``3/8 + cos(2 pi/n)/4``: what a ring shrinks by [Loop87]_."""
-    return Fraction(3, 8) + cosine(n) * Fraction(1, 4)
 
 
 QUADS = Ring(4, lambda m: quotient(1, 4 * quad_lambda(m) - 1), quad_lambda, Fraction(1, 16))
