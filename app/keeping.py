@@ -11,12 +11,13 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 
+from app.boxlab import LONGEST, MOST_VECTORS
 from app.draw.pointed import ACROSS
 from app.draw.theme import THEMES
 from app.lab import LABORATORY, MOST_PANES, Lab, Rule, affordable, lesson_of
@@ -45,7 +46,6 @@ CHOICES: Mapping[str, Mapping[str, Any]] = {"theme": THEMES, "across": ACROSS}
 
 MOST_BYTES = 32 << 20
 MOST_POINTS, MOST_CORNERS = 100_000, 500_000
-MOST_VECTORS, LONGEST_VECTOR = 24, 9
 FARTHEST_POINT = 1e15
 FASTEST = 100.0
 FRACTION = re.compile(r"-?[0-9]{1,9}(/[1-9][0-9]{0,8})?")
@@ -88,19 +88,24 @@ def document(state: State) -> Table:
 
 
 def write(path: Path, state: State) -> Path:
-    """Keep the state in a file, whole or not at all; the suffix is added where there is none.
+    """Keep the state in a file, whole or not at all; the suffix is added where it is missing.
 
     Raises
     ------
     KeepingError
         If it cannot be written there; an older file then stays as it was.
     """
-    path = path if path.suffix else path.with_suffix(SUFFIX)
+    path = named(path)
     try:
         save(path, [kept(state).encode()])
     except (OSError, MemoryError) as error:
         raise KeepingError(str(fault_of_system(error, path).in_file(path))) from error
     return path
+
+
+def named(path: Path) -> Path:
+    """The name that a session is kept under."""
+    return path if path.suffix.lower() == SUFFIX else path.with_name(path.name + SUFFIX)
 
 
 def _options() -> tuple[str, ...]:
@@ -131,6 +136,7 @@ def _parameter(value: Value) -> Any:
     return str(value) if isinstance(value, Fraction) else value
 
 
+@lru_cache(maxsize=1)
 def _object(control: Mesh) -> Table:
     """A shape of the house by its name; else all its numbers."""
     for name in shapes.SHAPES:
@@ -383,7 +389,7 @@ def _value(entry: Entry, parameter: Parameter) -> Value:
 
 
 def _vector(entry: Entry) -> tuple[int, int]:
-    a, b = (each.whole(-LONGEST_VECTOR, LONGEST_VECTOR) for each in entry.rows(2, 2))
+    a, b = (each.whole(-LONGEST, LONGEST) for each in entry.rows(2, 2))
     return a, b
 
 

@@ -44,7 +44,7 @@ from app.gui.shown import Shown
 from app.gui.timeline import Timeline, tool_button
 from app.gui.viewport import Viewport
 from app.gui.why import Why
-from app.keeping import SUFFIX, taken_up
+from app.keeping import SUFFIX, named, taken_up
 from app.link import followed, link
 from app.opening import OPENABLE
 from app.state import State, choose
@@ -212,9 +212,13 @@ class Window(QMainWindow):
     def save_session_as(self) -> None:
         suggested = self.document.path or Path(self._folder("sessions")) / f"{self.session.state.lesson.id}{SUFFIX}"
         path, _ = QFileDialog.getSaveFileName(self, "Save the session", str(suggested), f"Sessions (*{SUFFIX})")
-        if path:
-            self.settings.setValue("folder_sessions", str(Path(path).parent))
-            self.save_session_to(Path(path))
+        if not path:
+            return
+        self.settings.setValue("folder_sessions", str(Path(path).parent))
+        if (whole := named(Path(path))) != Path(path) and whole.exists():
+            self.banner.say(f"{whole.name} is there already; choose it by its whole name to replace it.")
+        else:
+            self.save_session_to(whole)
 
     def save_session_to(self, path: Path) -> None:
         """Keep what is open in a file, which is then the one that is open."""

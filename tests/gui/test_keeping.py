@@ -15,11 +15,12 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
 import lessons
 from app import bench
+from app.cli import main
 from app.gui.autosave import Autosave
 from app.gui.menus import _list_recent
-from app.keeping import document, kept, read
-from app.link import HEAD, followed
-from app.state import choose, drag, forward, last, open_lesson, seek, turn_view
+from app.keeping import document, kept, read, write
+from app.link import HEAD, followed, link
+from app.state import choose, drag, forward, last, open_lesson, seek, start, turn_view
 from app.turn import REST
 
 pytestmark = pytest.mark.window
@@ -81,6 +82,41 @@ def test_a_session_is_saved_and_opened_again_as_it_was(qtbot, window, tmp_path, 
     assert document(read(path)) == document(window.session.state)
     press(window, Qt.Key.Key_S, CTRL | SHIFT)
     assert len(asked) == 2
+
+
+def test_a_name_without_its_suffix_never_replaces_a_file_unasked(window, tmp_path, monkeypatch):
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "talk"), ""))
+    arrange(window)
+    window.save_session_as()
+    assert window.document.path == tmp_path / "talk.subdivision"
+    before = window.document.path.read_bytes()
+    window.session.do(choose, net=False)
+    window.save_session_as()
+    assert "talk.subdivision is there already" in window.banner.words.text()
+    assert window.document.path.read_bytes() == before
+
+
+def test_the_command_opens_links_sessions_and_meshes(window, tmp_path, monkeypatch, capsys):
+    told = arrange(window)
+    word, path = link(window.session.state), write(tmp_path / "talk.subdivision", window.session.state)
+    mesh = tmp_path / "sheet.obj"
+    mesh.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n")
+    ran = []
+    monkeypatch.setattr("app.gui.application.run", lambda **asked: ran.append(asked) or 0)
+    for name, file in ((word, None), (str(path), path), (str(mesh), mesh)):
+        assert main([name, "--theme", "dark"]) == 0
+        assert ran[-1]["path"] == file
+    opened = [document(asked["opening"](start(lessons.find("1")))) for asked in ran]
+    assert opened[:2] == [{**told, "options": {**told["options"], "theme": "dark"}}] * 2
+    assert opened[2]["laboratory"]["name"] == "sheet"
+    for wrong, said in (
+        (word[:-5], "not come whole"), (f"{path}x", "are not read"), (str(tmp_path / "no.subdivision"), "no such file"),
+        (str(tmp_path / "no.obj"), "no such file"), ("figure_77", "there is no lesson"),
+    ):  # fmt: skip
+        assert main([wrong]) == 1
+        assert said in capsys.readouterr().err
+    assert main([word, "--step", "3"]) == 1
+    assert "leave them out" in capsys.readouterr().err
 
 
 def test_undoing_to_what_was_saved_takes_the_star_away(window, tmp_path):
