@@ -1,8 +1,8 @@
-"""One subdivision step on whole arrays: every new point is a short row of weights, and all rows are applied at once.
+"""One subdivision step on whole arrays: every half-edge adds what it has to the points it concerns.
 
 The stages of a scheme say the same in words; tests hold the two together.  What distinguishes
 a scheme from the others that refine alike is its ``reach``; all else follows from the
-topology.
+topology, and nothing is sorted or searched.
 """
 
 from collections.abc import Callable
@@ -25,90 +25,166 @@ Reach = Callable[[int], Exact | int]
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
-    """Sparse rows: row ``i`` weighs point ``index[j]`` by ``weight[j]`` for ``start[i] <= j < start[i + 1]``."""
+class Sharp:
+    """What sharpness changes.
 
-    start: Small
-    index: Small
+    Attributes
+    ----------
+    edges, ends, share : (n,) int, (n, 2) int, (n, 1) float
+        Sharp edges go ``share`` of the way to their midpoints.
+    at, towards, weight : (m,) int, (m,) int, (m,) float
+        Vertices on creases hold so much of a neighbour.
+    """
+
+    edges: Indices
+    ends: Indices
+    share: Floats
+    at: Small
+    towards: Small
     weight: Floats
-
-    def apply(self, points: Floats, out: Floats) -> None:
-        """Write the rows of ``points`` (n, d) to ``out`` (n_rows, d); both are contiguous."""
-        out.fill(0)
-        _sparsetools.csr_matvecs(
-            len(out), len(points), points.shape[1],
-            self.start, self.index, self.weight, points.reshape(-1), out.reshape(-1),
-        )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
 class Kernel:
     """One step from ``coarse``, numbered as the stages do.
 
-    Of quads the vertex and edge points read face points too; triangles have no ``faces``.
+    Attributes
+    ----------
+    size : int
+        How many corners the faces have that it makes.
+    origin, edge, ahead, behind : (n_halfedges,) int
+        The vertex and edge of each half-edge, and its neighbours in the face; ``behind`` for triangles only.
+    start : (n_faces + 1,) int
+        Where the half-edges of each face begin.
+    ones : (n_halfedges,) float
+    own, corner : (n_vertices,) float
+        How much a vertex holds of itself, and of what each of its corners brings.
+    sharp : Sharp or None
+        None where everything is smooth.
     """
 
     coarse: Topology
-    vertices: Rows
-    edges: Rows
-    faces: Rows | None = None
+    size: int
+    origin: Small
+    edge: Small
+    ahead: Small
+    behind: Small
+    start: Small
+    ones: Floats
+    own: Floats
+    corner: Floats
+    sharp: Sharp | None
 
     @property
     def n_points(self) -> int:
         """How many points it makes."""
-        return self.coarse.n_vertices + self.coarse.n_edges + (self.coarse.n_faces if self.faces else 0)
+        return self.coarse.n_vertices + self.coarse.n_edges + (self.coarse.n_faces if self.size == 4 else 0)
 
     def apply(self, points: Floats, out: Floats | None = None) -> Floats:
         """(n_vertices, d) float -> (n_points, d) float, into ``out`` if there is one."""
-        V, d = points.shape
-        inner = self.n_points - self.coarse.n_edges
-        made = np.empty((self.n_points, d)) if out is None else out
-        read = points
-        if self.faces:
-            read = np.empty((inner, d))
-            read[:V] = points
-            self.faces.apply(points, read[V:])
-            made[V:inner] = read[V:]
-        self.vertices.apply(read, made[:V])
-        self.edges.apply(read, made[inner:])
+        made = np.empty((self.n_points, points.shape[1])) if out is None else out
+        made.fill(0)
+        vertices, centres, edges = np.split(made, [len(points), self.n_points - self.coarse.n_edges])
+        if self.size == 4:
+            self._face_points(points, centres)
+            self._add(self.edge, self.origin, points, edges)
+            self._spread(self.edge, centres, edges)
+            edges *= 1 / 4
+            self._spread(self.origin, centres, vertices)
+        else:
+            self._add(self.edge, self.origin, points, edges)
+            edges *= 3
+            self._add(self.edge, self.behind, points, edges)
+            edges *= 1 / 8
+        self._add(self.origin, self.ahead, points, vertices)
+        vertices *= self.corner[:, None]
+        vertices += self.own[:, None] * points
+        if self.sharp:
+            midpoints = points[self.sharp.ends].mean(axis=1)
+            edges[self.sharp.edges] += self.sharp.share * (midpoints - edges[self.sharp.edges])
+            _add(self.sharp.at, self.sharp.towards, self.sharp.weight, points, vertices)
         return made
 
     def refined(self) -> Topology:
         """The topology after the step: its corners now, the rest if it is asked for."""
         t = self.coarse
-        origin = refine.quad_corners(t) if self.faces else refine.triangle_corners(t)
-        split = refine.quads if self.faces else refine.triangles
-        return refine.deferred(t, lambda: split(t), origin, 4 if self.faces else 3, self.n_points)
+        split, corners = (
+            (refine.quads, refine.quad_corners) if self.size == 4 else (refine.triangles, refine.triangle_corners)
+        )
+        return refine.deferred(t, lambda: split(t), corners(t), self.size, self.n_points)
+
+    def _face_points(self, points: Floats, out: Floats) -> None:
+        n, d = out.shape
+        _sparsetools.csr_matvecs(
+            n, len(points), d, self.start, self.origin, self.ones, points.reshape(-1), out.reshape(-1)
+        )
+        out *= 1 / 4 if self.coarse.is_quadrilateral else (1 / self.coarse.face_sizes)[:, None]
+
+    def _add(self, at: Small, of: Small, points: Floats, out: Floats) -> None:
+        """Every half-edge adds point ``of`` it to ``out`` ``at`` it."""
+        _add(at, of, self.ones, points, out)
+
+    def _spread(self, at: Small, centres: Floats, out: Floats) -> None:
+        """Every half-edge adds the point of its face to ``out`` ``at`` it."""
+        _sparsetools.csc_matvecs(
+            len(out), len(centres), out.shape[1], self.start, at, self.ones, centres.reshape(-1), out.reshape(-1)
+        )
 
 
 def quads(t: Topology, reach: Reach) -> Kernel:
     """The step that splits every face into quads; half of a ring are neighbours, half the points of faces around."""
-    V = t.n_vertices
-    ahead, centre = taken(t.origin, t.next), V + t.face
-    per = _reached(t, reach) / 2
-    start = np.concatenate([[0], np.cumsum(t.face_sizes)])
-    weight = np.full(t.n_halfedges, 1 / 4) if t.is_quadrilateral else (1 / t.face_sizes)[t.face]
-    return Kernel(
-        t,
-        vertices=_vertex_rows(t, [ahead, centre], per, V + t.n_faces),
-        edges=_edge_rows(t, ahead, centre, 1 / 2),
-        faces=Rows(_small(start), _small(t.origin), weight),
-    )
+    return _kernel(t, 4, _reached(t, reach) / 2, 2)
 
 
 def triangles(t: Topology, reach: Reach) -> Kernel:
     """The step that splits every triangle into four; the ring of a vertex is its neighbours."""
-    ahead, wing = taken(t.origin, t.next), taken(t.origin, t.prev)
-    return Kernel(
-        t,
-        vertices=_vertex_rows(t, [ahead], _reached(t, reach), t.n_vertices),
-        edges=_edge_rows(t, ahead, wing, 3 / 4),
-    )
+    return _kernel(t, 3, _reached(t, reach), 1)
 
 
 def is_smooth(t: Topology) -> bool:
-    """Whether nothing is sharp, so that all rows are those of smooth points."""
+    """Whether nothing is sharp, so that all points are smooth."""
     return not (t.edge_sharpness.any() or t.vertex_sharpness.any())
+
+
+def _kernel(t: Topology, size: int, corner: Floats, brought: int) -> Kernel:
+    """``corner`` is what each corner of a smooth vertex weighs, for each of the points ``brought`` there."""
+    own = 1 - brought * corner * np.bincount(t.origin, minlength=t.n_vertices)
+    sharp = None
+    if not is_smooth(t):
+        own, corner, sharp = _sharpened(t, own, corner)
+    behind = taken(t.origin, t.prev) if size == 3 else t.origin[:0]
+    start = np.concatenate([[0], np.cumsum(t.face_sizes)])
+    return Kernel(
+        t,
+        size,
+        origin=_small(t.origin),
+        edge=_small(t.edge),
+        ahead=_small(taken(t.origin, t.next)),
+        behind=_small(behind),
+        start=_small(start),
+        ones=np.ones(t.n_halfedges),
+        own=own,
+        corner=corner,
+        sharp=sharp,
+    )
+
+
+def _sharpened(t: Topology, own: Floats, corner: Floats) -> tuple[Floats, Floats, Sharp]:
+    """The same for vertices that follow other rules, and the rest of those rules."""
+    rules = vertex_rules(t)
+    parts = [(rules.now, rules.stays, rules.sharp_now), (rules.then, 1 - rules.stays, rules.sharp_then)]
+    smooth, keep, crease = (
+        sum(share * (rule == kind) for rule, share, _ in parts) for kind in (SMOOTH, CORNER, CREASE)
+    )
+    ends = [t.ends[sharp] for _, _, sharp in parts]
+    at = np.concatenate([pair.T.ravel() for pair in ends])
+    towards = np.concatenate([pair[:, ::-1].T.ravel() for pair in ends])
+    along = [share * (rule == CREASE) for rule, share, _ in parts]
+    weight = np.concatenate([held[pair.T.ravel()] / 8 for held, pair in zip(along, ends, strict=True)])
+    edges = np.flatnonzero(t.edge_sharpness)
+    share = np.minimum(t.edge_sharpness[edges], 1)[:, None]
+    sharp = Sharp(edges, t.ends[edges], share, _small(at), _small(towards), weight)
+    return smooth * own + keep + 3 / 4 * crease, smooth * corner, sharp
 
 
 @lru_cache(maxsize=1024)
@@ -117,7 +193,7 @@ def _number(reach: Reach, n: int) -> float:
 
 
 def _reached(t: Topology, reach: Reach) -> Floats:
-    """(n_vertices,) float: what each corner of a vertex weighs; all of them together ``reach`` of its valence."""
+    """(n_vertices,) float: an equal share of ``reach`` for each corner of a vertex."""
     counts = np.bincount(t.origin, minlength=t.n_vertices)
     table = np.zeros(int(counts.max(initial=0)) + 1)
     present = np.flatnonzero(np.bincount(counts))
@@ -126,50 +202,8 @@ def _reached(t: Topology, reach: Reach) -> Floats:
     return table[counts]
 
 
-def _edge_rows(t: Topology, ahead: Indices, beside: Indices, ends: float) -> Rows:
-    """Edge points: ``ends`` of the midpoint, the rest of what is ``beside`` the edge; sharp ones are midpoints."""
-    half = np.empty(t.n_edges, dtype=np.intp)
-    half[t.edge] = np.arange(t.n_halfedges)
-    across = taken(t.twin, half)
-    index = np.empty((t.n_edges, 4), dtype=np.int32)
-    for k, part in enumerate((t.origin, ahead, beside)):
-        index[:, k] = taken(part, half)
-    index[:, 3] = taken(beside, np.where(across >= 0, across, half))
-    weight = np.empty((t.n_edges, 4))
-    weight[:, :2], weight[:, 2:] = ends / 2, (1 - ends) / 2
-    sharp = np.flatnonzero(t.edge_sharpness)
-    share = np.minimum(t.edge_sharpness[sharp], 1)[:, None]
-    weight[sharp] = share * [1 / 2, 1 / 2, 0, 0] + (1 - share) * weight[sharp]
-    return Rows(np.arange(0, 4 * t.n_edges + 1, 4, dtype=np.int32), index.ravel(), weight.ravel())
-
-
-def _vertex_rows(t: Topology, around: list[Indices], per: Floats, n_columns: int) -> Rows:
-    """Vertex points: smooth ones go to what is ``around`` their corners, ``per`` vertex and corner."""
-    itself = 1 - len(around) * per * np.bincount(t.origin, minlength=t.n_vertices)
-    creases: list[tuple[Indices, Indices, Floats]] = []
-    if not is_smooth(t):
-        rules = vertex_rules(t)
-        parts = [(rules.now, rules.stays, rules.sharp_now), (rules.then, 1 - rules.stays, rules.sharp_then)]
-        smooth, keep = (sum(share * (rule == kind) for rule, share, _ in parts) for kind in (SMOOTH, CORNER))
-        itself, per = smooth * itself + keep, smooth * per
-        for rule, share, sharp in parts:
-            crease = share * (rule == CREASE)
-            itself += 3 / 4 * crease
-            a, b = t.ends[sharp].T
-            creases += [(a, b, crease[a] / 8), (b, a, crease[b] / 8)]
-    own = np.arange(t.n_vertices)
-    spread = taken(per, t.origin)
-    entries = [(own, own, itself), *((t.origin, one, spread) for one in around), *creases]
-    return _sorted_rows(t.n_vertices, n_columns, *(np.concatenate(part) for part in zip(*entries, strict=True)))
-
-
-def _sorted_rows(n_rows: int, n_columns: int, row: Indices, column: Indices, weight: Floats) -> Rows:
-    """Rows from entries in any order."""
-    rows = Rows(np.empty(n_rows + 1, dtype=np.int32), np.empty(len(row), dtype=np.int32), np.empty(len(row)))
-    _sparsetools.coo_tocsr(
-        n_rows, n_columns, len(row), _small(row), _small(column), weight, rows.start, rows.index, rows.weight
-    )
-    return rows
+def _add(at: Small, of: Small, weight: Floats, points: Floats, out: Floats) -> None:
+    _sparsetools.coo_matmat_dense(len(at), out.shape[1], at, of, weight, points.reshape(-1), out.reshape(-1))
 
 
 def _small(indices: Indices) -> Small:

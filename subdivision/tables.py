@@ -16,10 +16,13 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from subdivision import refine
-from subdivision.arrays import Floats, Indices
+from subdivision.arrays import Floats, Indices, taken
 from subdivision.kernels import Kernel
 from subdivision.rings import Kind, sorted_faces, unfolded, with_ring
 from subdivision.topology import Topology
+
+AT_ONCE = 2048
+"""How many faces are gathered at a time: what they read then stays in the cache."""
 
 Kernels = Callable[[Topology], Kernel]
 
@@ -121,13 +124,19 @@ class Patches:
 
     def apply(self, points: Floats, made: Floats, corners: Floats) -> None:
         """From ``points`` of the coarse mesh write this kind's into ``made``, and into ``corners`` (k, n, d)."""
-        n, d = self.ring.shape[1], points.shape[1]
-        read = np.take(points, self.ring, axis=0, mode="clip")
-        _product(self.table, read, made[self.begin : self.begin + len(self.table) * n])
-        _product(self.corners, read, corners.reshape(-1, d))
+        (rows, n_ring), n, d = self.table.shape, self.ring.shape[1], points.shape[1]
+        own = made[self.begin : self.begin + rows * n].reshape(rows, n * d)
+        corners = corners.reshape(len(self.corners), n * d)
+        for begin in range(0, n, AT_ONCE):
+            some = slice(begin * d, (begin + AT_ONCE) * d)
+            read = taken(points, self.ring[:, begin : begin + AT_ONCE]).reshape(n_ring, -1)
+            np.matmul(self.corners, read, out=corners[:, some])
+            if rows:
+                np.matmul(self.table, read, out=own[:, some])
         if len(self.on_rim):
-            m = len(self.on_rim) * len(self.rim)
-            _product(self.rim, read[:, self.on_rim], made[self.rim_begins : self.rim_begins + m])
+            begin, end = self.rim_begins, self.rim_begins + len(self.on_rim) * len(self.rim)
+            read = taken(points, self.ring[:, self.on_rim]).reshape(n_ring, -1)
+            np.matmul(self.rim, read, out=made[begin:end].reshape(len(self.rim), -1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -268,8 +277,3 @@ def _counted(begin: Indices, step: Indices, out: Indices) -> None:
     """Count from ``begin`` by ``step`` along the last axis of ``out``."""
     np.multiply(step[..., None], np.arange(out.shape[-1]), out=out)
     out += begin[..., None]
-
-
-def _product(table: Floats, read: Floats, made: Floats) -> None:
-    if len(table):
-        np.matmul(table, read.reshape(len(read), -1), out=made.reshape(len(table), -1))

@@ -259,15 +259,18 @@ def _smallest_around(label: Indices, around: Indices, rounds: int) -> Indices:
 
 
 def _crease_sharpness(ends: Indices, creases: Mapping[tuple[int, int], float]) -> Floats:
+    """(n_edges,) float; ``ends`` are in the order of their smaller vertices, then of their larger ones."""
     sharpness = np.zeros(len(ends))
-    if creases:
-        number = {frozenset(pair): e for e, pair in enumerate(ends.tolist())}
-        for pair, value in creases.items():
-            if frozenset(pair) not in number:
-                raise TopologyError(
-                    f"there is no edge between vertices {pair[0]} and {pair[1]} to crease", vertices=pair
-                )
-            sharpness[number[frozenset(pair)]] = _checked(value)
+    if not creases:
+        return sharpness
+    known, wanted = np.sort(ends, axis=1), np.sort(np.array(list(creases), dtype=np.intp), axis=1)
+    base = max(int(known.max()), int(wanted.max())) + 1
+    keys, places = known @ [base, 1], wanted @ [base, 1]
+    found = np.minimum(np.searchsorted(keys, places), len(keys) - 1)
+    if (missing := np.flatnonzero((keys[found] != places) | (wanted[:, 0] < 0))).size:
+        pair = list(creases)[missing[0]]
+        raise TopologyError(f"there is no edge between vertices {pair[0]} and {pair[1]} to crease", vertices=pair)
+    sharpness[found] = [_checked(value) for value in creases.values()]
     return sharpness
 
 
