@@ -184,6 +184,8 @@ def wants(focus: object, event: QKeyEvent) -> bool | None:
     if isinstance(focus, QAbstractSpinBox):
         return plain and key not in (Qt.Key.Key_PageDown, Qt.Key.Key_PageUp, Qt.Key.Key_Escape)
     if isinstance(focus, QLineEdit):
+        if event.matches(QKeySequence.StandardKey.Paste):
+            return None
         if focus.text() and key not in (Qt.Key.Key_PageDown, Qt.Key.Key_PageUp):
             return None
         is_typing = plain and event.text().isprintable() and event.text() != ""

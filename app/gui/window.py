@@ -109,7 +109,7 @@ class Window(QMainWindow):
                 action.setChecked(on(state.options))
         self.actions_by_id["undo"].setEnabled(self.session.can_undo)
         self.actions_by_id["redo"].setEnabled(self.session.can_redo)
-        self.setWindowModified(self.document.is_modified)
+        self._star()
         self.actions_by_id["play"].setIcon(icon("pause" if state.is_playing else "play", state.options.theme))
         if state.options.presenting != self._is_presenting:
             self._present(state.options.presenting)
@@ -354,7 +354,11 @@ class Window(QMainWindow):
         """The file's name in the title, with a star for what is not saved."""
         path = self.document.path
         self.setWindowTitle(f"{path.name}[*] – {NAME}" if path else NAME)
-        self.setWindowModified(self.document.is_modified)
+        self._star()
+
+    def _star(self) -> None:
+        if (is_modified := self.document.is_modified) != self.isWindowModified():  # Qt would write the title anew
+            self.setWindowModified(is_modified)
 
     def _present(self, is_on: bool) -> None:
         """Nothing but the picture, on the whole screen; or everything as it was."""

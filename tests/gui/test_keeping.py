@@ -212,6 +212,16 @@ def test_a_link_is_copied_and_pasted(window):
     assert "no link of this program" in window.banner.words.text()
 
 
+def test_the_search_box_pastes_for_itself(window):
+    state = window.session.state
+    QGuiApplication.clipboard().setText("torus")
+    window.find_lesson()
+    press(window, Qt.Key.Key_V)
+    assert window.contents.search.text() == "torus"
+    assert window.session.state is state
+    assert not window.banner.isVisible()
+
+
 def test_the_end_asks_about_what_is_not_saved(window, tmp_path, monkeypatch):
     arrange(window)
     window.save_session_to(tmp_path / "a.subdivision")
