@@ -6,12 +6,13 @@ Coordinates are pixels from the upper left, y downwards.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import hypot
 
 import numpy as np
 
 from app.draw import dotted
 from app.draw.labels import placed
-from app.draw.picture import Box, Camera, Diagram, Dot, Note, Pane, Picture
+from app.draw.picture import Box, Camera, Diagram, Dot, Link, Note, Pane, Picture
 from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, wrapped
 
@@ -38,6 +39,9 @@ BOX = 34.0
 """The largest type in a box."""
 IN_BOX = 1.18
 """From one baseline to the next in a box, relative to the size of the type."""
+
+HEAD, SPREAD = 3.6, 0.55
+"""How far an arrow's head reaches back, relative to the width of its stroke, and aside, relative to that."""
 
 APART = 1.4
 """Between the caption and the formula beside it, relative to the caption's size."""
@@ -299,12 +303,7 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
     """Links, boxes and notes, the later ones over the earlier."""
     unit = height / 1000
     cells, margin = _cells(diagram, area, unit), MARGIN * unit
-    links: list[Primitive] = [
-        Stroke(
-            *cells.at(k.x0, k.y0), *cells.at(k.x1, k.y1), k.colour, k.width * unit * picture.stroke, k.opacity
-        )
-        for k in diagram.links
-    ]  # fmt: skip
+    links = [stroke for k in diagram.links for stroke in _link(k, cells, k.width * unit * picture.stroke)]
     said = _spelled(diagram, cells, unit, picture.scale)
     boxes = [
         primitive
@@ -314,6 +313,17 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
     size = max(min(NOTE * unit * picture.scale, 0.5 * cells.tall), LEAST * unit)
     notes = [text for n in diagram.notes for text in _note(n, cells.at(n.x, n.y), size, area, margin)]
     return [*links, *boxes, *notes]
+
+
+def _link(link: Link, cells: _Cells, width: float) -> list[Primitive]:
+    """The stroke, and those of its head."""
+    (x0, y0), (x1, y1) = cells.at(link.x0, link.y0), cells.at(link.x1, link.y1)
+    starts = [(x0, y0)]
+    if link.is_arrow:
+        part = HEAD * width / max(hypot(x0 - x1, y0 - y1), 1e-9)
+        x, y = part * (x0 - x1), part * (y0 - y1)
+        starts += [(x1 + x - SPREAD * y, y1 + y + SPREAD * x), (x1 + x + SPREAD * y, y1 + y - SPREAD * x)]
+    return [Stroke(*start, x1, y1, link.colour, width, link.opacity) for start in starts]
 
 
 def _spreads(picture: Picture, areas: Sequence[Area], unit: float) -> dict[int, dotted.Spread]:

@@ -160,7 +160,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Link:
-    """A stroke of a diagram from one place to another, in cells."""
+    """A stroke of a diagram from one place to another, in cells; an arrow has a head at the second one."""
 
     x0: float
     y0: float
@@ -184,6 +184,7 @@ class Note:
 
 
 @dataclass(frozen=True)
+    is_arrow: bool = False
 class Dot:
     """A flat marker of a diagram, in cells; ``size`` is its radius in logical points.
 
