@@ -146,7 +146,7 @@ def ring(scheme: Scheme, valence: int) -> Ring:
         For a valence below 3, for schemes of polygons and nets, and for those whose new points are not told by the
         faces round one vertex.
     """
-    step, names, successors = _step_on_fan(scheme, valence)
+    step, names, successors = step_on_fan(scheme, valence)
     return Ring(scheme, valence, names, tuple(_named(step, names, name, point) for name, point in successors.items()))
 
 
@@ -158,7 +158,7 @@ def stencil_by_valence(scheme: Scheme, valence: int, point: Point) -> NamedStenc
     TopologyError
         As ``ring``, and for face points of triangle schemes.
     """
-    step, names, successors = _step_on_fan(scheme, valence)
+    step, names, successors = step_on_fan(scheme, valence)
     name = {"vertex": "V", "edge": "E1", "face": "F1"}.get(point)
     if name is None:
         raise TopologyError(f"there is no '{point}' point; choose vertex, edge or face")
@@ -179,7 +179,7 @@ def fan(n: int, corners: int) -> Topology:
     return Topology.from_corners(np.full(n, corners), np.stack(around, axis=1).ravel())
 
 
-def _step_on_fan(scheme: Scheme, n: int) -> tuple[Step, tuple[str, ...], dict[str, int]]:
+def step_on_fan(scheme: Scheme, n: int) -> tuple[Step, tuple[str, ...], dict[str, int]]:
     """A step on a fan; names of the old points; and where their successors are among the new ones."""
     if n < 3:
         raise TopologyError(f"{n} faces do not close round a vertex; choose a valence of 3 or more")
