@@ -5,7 +5,7 @@ whatever draws or traces one draws and traces all three.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -175,6 +175,7 @@ def shown_corners(t: Connectivity) -> Mask:
     return np.repeat(~t.hidden, t.face_sizes)
 
 
+@lru_cache(maxsize=8)
 def shown_faces(t: Connectivity) -> tuple[Indices, Indices]:
-    """Sizes and corners, laid end to end, of the faces that are part of the surface."""
+    """Sizes and corners, laid end to end, of the faces that are part of the surface; asked again, the same arrays."""
     return t.face_sizes[~t.hidden], t.origin[shown_corners(t)]

@@ -176,6 +176,13 @@ class Trace:
         there.__dict__["points"] = tuple(done)  # where a cached property keeps its value
         return there
 
+    def influence(self, vertex: int, k: int) -> Floats:
+        """(n_points,): how much of control point ``vertex`` each point holds after ``k`` stages: its basis function."""
+        touched, share = self._influence(vertex)[k - 1] if k else (np.array([vertex]), np.ones(1))
+        found = np.zeros(len(self.roles_at(k)))
+        found[touched] = share
+        return found
+
     @cached_property
     def _influences(self) -> dict[int, tuple[tuple[Indices, Floats], ...]]:
         return {}

@@ -1,27 +1,14 @@
 """What painters share: polygons as shaded triangles, strokes as dashes."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from app.draw import regular
 from app.draw.picture import Faces, Lines
+from app.draw.regular import CREASED, SMOOTH, Facets
 from subdivision.arrays import Floats, Indices
 
-SMOOTH, CREASED = np.cos(np.radians([9.0, 17.0]))
-"""Cosines: a polygon that leans less from the mean round its corner is shaded smoothly there, one that leans more
-flatly; between the two the one passes into the other, so that nothing flickers while points move."""
-
-
-@dataclass(frozen=True, eq=False)
-class Facets:
-    """Triangles of polygons: a bent quad does not look creased, and where neighbours nearly agree they look smooth.
-
-    ``points`` and ``normals`` (n, 3); ``triangles`` (m, 3).
-    """
-
-    points: Floats
-    normals: Floats
-    triangles: Indices
+MANY = 256
+"""From so many polygons on it is worth to know connectivity again."""
 
 
 def normals(faces: Faces) -> Floats:
@@ -38,11 +25,7 @@ def normals(faces: Faces) -> Floats:
 
 def shading(faces: Faces) -> Floats:
     """(n_corners, 3): the normal each polygon wears at each of its corners."""
-    own = normals(faces)[np.repeat(np.arange(len(faces.sizes)), faces.sizes)]
-    n = len(faces.points)
-    mean = _unit(np.stack([np.bincount(faces.corners, own[:, k], n) for k in range(3)], axis=1))[faces.corners]
-    agree = np.clip(((own * mean).sum(axis=1, keepdims=True) - CREASED) / (SMOOTH - CREASED), 0.0, 1.0)
-    return _unit(own + agree * agree * (3 - 2 * agree) * (mean - own))
+    return _shading(faces, normals(faces))
 
 
 def facets(faces: Faces) -> Facets:
@@ -50,6 +33,12 @@ def facets(faces: Faces) -> Facets:
 
     A triangle stays one; a polygon too concave for its middle is cut by its ears.
     """
+    quick = regular.facets(faces) if len(faces.sizes) >= MANY else None
+    return quick if quick is not None else any_facets(faces)
+
+
+def any_facets(faces: Faces) -> Facets:
+    """The same for polygons of all kinds, corner by corner."""
     corners, start, follower, owner = _walk(faces)
     middle, normal = _means(faces), normals(faces)
     n = len(corners)
@@ -60,8 +49,24 @@ def facets(faces: Faces) -> Facets:
     bad[owner[(turned * normal[owner]).sum(axis=1) < -1e-12 * np.abs(turned).max(initial=0.0)]] = True
     whole = start[triangle][:, None] + np.arange(3)
     ears = [_ears(corners, start[f], faces.sizes[f]) for f in np.flatnonzero(bad & ~triangle)]
-    parts = [fan[~(triangle | bad)[owner]], whole, *ears]
-    return Facets(np.vstack([corners, middle]), np.vstack([shading(faces), normal]), np.vstack(parts))
+    triangles = np.vstack([fan[~(triangle | bad)[owner]], whole, *ears])
+    shades = np.vstack([_shading(faces, normal), normal])
+    return Facets(np.vstack([corners, middle]), shades, triangles, faces.corners, owner[triangles[:, 0]])
+
+
+def worn(faces: Faces, cut: Facets) -> Floats | None:
+    """(n, 3): the colour of every point of the facets; None where all have one."""
+    if faces.colours is None:
+        return None
+    at_points = faces.colours[cut.vertices]
+    has_middles = len(cut.points) > len(cut.vertices)
+    return np.concatenate([at_points, face_colours(faces, faces.colours)]) if has_middles else at_points
+
+
+def face_colours(faces: Faces, colours: Floats) -> Floats:
+    """(n_faces, 3): the mean of the colours at the corners."""
+    start = np.cumsum(faces.sizes) - faces.sizes
+    return np.asarray(np.add.reduceat(colours[faces.corners], start) / np.asarray(faces.sizes)[:, None])
 
 
 def dashes(lines: Lines, length: float) -> Lines:
@@ -76,6 +81,15 @@ def dashes(lines: Lines, length: float) -> Lines:
     both = np.repeat(owner, 2)
     points = (1 - at) * a[both] + at * b[both]
     return Lines(points, np.arange(len(points)).reshape(-1, 2), lines.colour, lines.width, lines.opacity)
+
+
+def _shading(faces: Faces, normal: Floats) -> Floats:
+    """``shading``, where the polygons have these normals."""
+    own = normal[np.repeat(np.arange(len(faces.sizes)), faces.sizes)]
+    n = len(faces.points)
+    mean = _unit(np.stack([np.bincount(faces.corners, own[:, k], n) for k in range(3)], axis=1))[faces.corners]
+    agree = np.clip(((own * mean).sum(axis=1, keepdims=True) - CREASED) / (SMOOTH - CREASED), 0.0, 1.0)
+    return _unit(own + agree * agree * (3 - 2 * agree) * (mean - own))
 
 
 def _walk(faces: Faces) -> tuple[Floats, Indices, Indices, Indices]:

@@ -63,13 +63,17 @@ class Lines:
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """Polygons: ``sizes`` (n_faces,) and ``corners`` laid end to end, on ``points`` (n, 3)."""
+    """Polygons: ``sizes`` (n_faces,) and ``corners`` laid end to end, on ``points`` (n, 3).
+
+    ``colours`` (n, 3), if there are any, are worn at the points instead of the one ``colour``.
+    """
 
     points: Floats
     sizes: Indices
     corners: Indices
     colour: Colour
     opacity: float = 1.0
+    colours: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,15 +127,26 @@ class Camera:
         return np.asarray(self.position + depth * ahead + aside * right + up * np.cross(right, ahead))
 
 
+@dataclass(frozen=True)
+class Bar:
+    """What colours stand for: ``colours`` from the least value to the most, and numbers at places 0..1 between."""
+
+    title: str
+    colours: tuple[Colour, ...]
+    ticks: tuple[tuple[float, str], ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """One pane in space."""
+    """One pane in space; ``remark`` is a sentence about it, where something asked for cannot be shown."""
 
     camera: Camera
     faces: tuple[Faces, ...] = ()
     lines: tuple[Lines, ...] = ()
     markers: tuple[Markers, ...] = ()
     labels: tuple[Label, ...] = ()
+    bar: Bar | None = None
+    remark: str = ""
 
 
 @dataclass(frozen=True)
@@ -169,6 +184,7 @@ class Link:
     colour: Colour
     opacity: float = 1.0
     width: float = 2.0
+    is_arrow: bool = False
 
 
 @dataclass(frozen=True)
@@ -184,7 +200,6 @@ class Note:
 
 
 @dataclass(frozen=True)
-    is_arrow: bool = False
 class Dot:
     """A flat marker of a diagram, in cells; ``size`` is its radius in logical points.
 

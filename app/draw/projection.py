@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.draw.depth import Depth, depth_of
-from app.draw.geometry import dashes, facets, normals
+from app.draw.geometry import dashes, face_colours, facets, normals
 from app.draw.layout import fitted
 from app.draw.markup import code, number, places, shone
 from app.draw.picture import Camera, Colour, Faces, Lines, Markers, Scene, Shape
@@ -91,8 +91,7 @@ def _triangles(scene: Scene, camera: Camera, area: Area) -> tuple[Floats, Indice
         if faces.opacity >= 1:
             cut = facets(faces)
             corners.append(camera.project(cut.points, area[2], area[3])[cut.triangles])
-            polygon = np.concatenate([np.repeat(np.arange(len(faces.sizes)), faces.sizes), np.arange(len(faces.sizes))])
-            owners.append(before + polygon[cut.triangles[:, 0]])
+            owners.append(before + cut.owner)
         before += len(faces.sizes)
     return np.concatenate(corners), np.concatenate(owners)
 
@@ -116,9 +115,11 @@ def _polygons(faces: Faces, view: _View) -> Iterator[tuple[int, str, float]]:
     facing = facing * np.where(facing[:, 2:] < 0, -1.0, 1.0)
     glow = lit(facing, SURFACE_LIGHT)
     ends = np.cumsum(faces.sizes)
+    own = None if faces.colours is None else face_colours(faces, faces.colours)
     for f, (end, size) in enumerate(zip(ends, faces.sizes, strict=True)):
         corners = flat[faces.corners[end - size : end]]
-        colour = code(shone(faces.colour, glow[f]))
+        plain = faces.colour if own is None else (own[f, 0], own[f, 1], own[f, 2])
+        colour = code(shone(plain, glow[f]))
         # A thin rim of its own colour closes the hairlines between neighbours.
         rim = f' stroke="{colour}" stroke-width="0.7"' if faces.opacity >= 1 else f' opacity="{number(faces.opacity)}"'
         yield f, f'<polygon points="{places(corners)}" fill="{colour}"{rim}/>', float(corners[:, 2].mean())

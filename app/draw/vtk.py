@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
 from app.draw import vtk_arrays
-from app.draw.geometry import dashes, facets
+from app.draw.geometry import dashes, facets, worn
 from app.draw.glyphs import Glyphs, finish
 from app.draw.picture import Camera, Colour, Faces, Lines, Scene, Shape
 from app.draw.primitives import Area
@@ -23,6 +23,7 @@ from app.draw.solid import (
     SURFACE_LIGHT,
     dash_of,
 )  # fmt: skip
+from subdivision.arrays import Indices
 
 SAMPLES = 8
 """Multisampling of stills."""
@@ -121,10 +122,11 @@ class _Surface:
     def __init__(self, renderer: Any) -> None:
         self.data, self.mapper, self.actor = vtkPolyData(), vtkPolyDataMapper(), vtkActor()
         self.mapper.SetInputData(self.data)
-        self.mapper.ScalarVisibilityOff()
+        self.mapper.SetColorModeToDirectScalars()
         self.mapper.SetResolveCoincidentTopologyToPolygonOffset()
         self.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 4.0)
         self.actor.SetMapper(self.mapper)
+        self._cut: Indices | None = None
         finish(self.actor, ambient=SURFACE_LIGHT[0], diffuse=SURFACE_LIGHT[1], specular=0.0)
         renderer.AddViewProp(self.actor)
 
@@ -132,7 +134,12 @@ class _Surface:
         cut = facets(faces)
         self.data.SetPoints(vtk_arrays.points(cut.points))
         self.data.GetPointData().SetNormals(vtk_arrays.array(cut.normals))
-        self.data.SetPolys(vtk_arrays.cells(cut.triangles))
+        if cut.triangles is not self._cut:
+            self._cut = cut.triangles
+            self.data.SetPolys(vtk_arrays.cells(cut.triangles))
+        colours = worn(faces, cut)
+        self.mapper.SetScalarVisibility(colours is not None)
+        self.data.GetPointData().SetScalars(None if colours is None else vtk_arrays.colours(colours))
         self.actor.GetProperty().SetColor(*faces.colour)
         self.actor.GetProperty().SetOpacity(faces.opacity)
 
