@@ -1,9 +1,11 @@
 """A state as text that can be read, kept in a file, and restored exactly.
 
 Version 1 is a JSON table: the lesson and its knobs, the place in it, what is pointed at, what was dragged, from where
-it is seen, the options of the picture, and the laboratory.  Floats are written so that they are read as the same
-floats.  Reading believes nothing and follows nothing.  A name that this version does not know is refused, since what
-it stands for would be missing from the picture; knobs and options that are not named stand where they begin.
+it is seen, the options of the picture, and the laboratory.  What passes is not kept: playing, and what is picked.
+
+Floats are written so that they are read as the same floats.  Reading believes nothing and follows nothing.  A name
+that this version does not know is refused, since what it stands for would be missing from the picture; knobs and
+options that are not named stand where they begin.
 """
 
 import json

@@ -137,6 +137,13 @@ def test_polygons_and_nets_of_any_numbers_are_kept(topology):
     assert same(followed(link(state)), state)
 
 
+def test_every_field_of_the_state_is_kept_or_passes():
+    told = {"lesson", "beat", "at", "focus", "edits", "lab", "turn", "options"}
+    assert {each.name for each in fields(st.State)} <= told | {"goal", "wait", "picked"}
+    assert {each.name for each in fields(Lab)} == {"name", "control", "rules", "levels", "overlay"}
+    assert {each.name for each in fields(Rule)} == {"family", "parameters", "telling", "boundary"}
+
+
 def test_every_option_in_words_has_its_choices():
     words = {each.name for each in fields(Options) if isinstance(getattr(Options(), each.name), str)}
     assert words == set(CHOICES)
