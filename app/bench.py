@@ -90,8 +90,11 @@ def set_levels(state: State, levels: int) -> State:
     return put(state, replace(lab_in(state), levels=max(levels, 1)))
 
 
-def put(state: State, lab: Lab) -> State:
-    """Show a laboratory: another control object from its first stop, the same one where the story stands."""
+def put(state: State, lab: Lab, *, stays: bool = False) -> State:
+    """Show a laboratory: another control object from its first stop, the same one where the story stands.
+
+    One that is the same but for an edit also ``stays`` there, seen as it was.
+    """
     for rule in lab.rules:
         rule.scheme.require(rule.bounded(lab.control).topology)
     levels = min(lab.levels, affordable(lab))
@@ -99,8 +102,10 @@ def put(state: State, lab: Lab) -> State:
     state = settle(state)
     is_same = is_open(state) and state.lab is not None and state.lab.control is lab.control
     lesson = lesson_of(lab)
-    place = same_place(state, lesson) if is_same else 0
-    return at_stop(state, stops(lesson)[place], lab=lab, lesson=lesson, edits=state.edits if is_same else ())
+    there = stops(lesson)[same_place(state, lesson) if is_same or stays else 0]
+    edits, picked = (state.edits, state.picked) if is_same else ((), None)
+    after = at_stop(state, there, lab=lab, lesson=lesson, edits=edits, picked=picked)
+    return replace(after, turn=state.turn) if stays else after
 
 
 def same_place(state: State, there: Lesson) -> int:

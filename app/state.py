@@ -65,6 +65,10 @@ class Options:
     legend: bool = True
     control: bool = False
     matrix: bool = False
+    basis: bool = False
+    limit: bool = False
+    distances: bool = False
+    surface_shows: str = ""
     lattice: bool = False
     as_caption: bool = False
     across: str = "step"
@@ -84,6 +88,22 @@ class Spot:
     point: int
 
 
+@dataclass(frozen=True)
+class Picked:
+    """What of the control object is chosen to be edited: its vertices, edges or faces with these ``numbers``.
+
+    ``along`` is how far along the last edge the hand meant it, from its first end, in 0..1.
+    """
+
+    kind: str
+    numbers: tuple[int, ...]
+    along: float = 0.5
+
+
+KINDS = ("vertex", "edge", "face")
+"""What can be picked."""
+
+
 @dataclass(frozen=True, eq=False)
 class State:
     """Where we are: the lesson, the beat, how far into it, what is pointed at, what was dragged, the laboratory.
@@ -100,6 +120,7 @@ class State:
     focus: Spot | None = None
     edits: Edits = ()
     lab: Lab | None = None
+    picked: Picked | None = None
     turn: Turn = REST
     options: Options = field(default_factory=Options)
 
@@ -207,7 +228,7 @@ def start(lesson: Lesson, options: Options | None = None) -> State:
 def open_lesson(state: State, lesson: Lesson, step: int = 0) -> State:
     """Another lesson at its stop number ``step`` (from 0), same options."""
     places = stops(lesson)
-    return at_stop(state, places[min(max(step, 0), len(places) - 1)], lesson=lesson, edits=())
+    return at_stop(state, places[min(max(step, 0), len(places) - 1)], lesson=lesson, edits=(), picked=None)
 
 
 def at_stop(state: State, stop: Stop, **changes: Any) -> State:
@@ -336,6 +357,11 @@ def look(state: State, spot: Spot | None) -> State:
     return replace(state, focus=spot)
 
 
+def pick(state: State, picked: Picked | None) -> State:
+    """Choose parts of the control object to edit; None: nothing."""
+    return replace(state, picked=picked)
+
+
 def turn_knob(state: State, number: int, by: int) -> State:
     """Change the lesson's knob number ``number`` (from 0) by ``by``; stay at the same place of the story."""
     if not 0 <= number < len(state.lesson.knobs):
@@ -354,7 +380,7 @@ def set_knob(state: State, name: str, value: int) -> State:
     here = max(k for k, s in enumerate(old) if (s.beat, s.at) <= (state.beat, state.at) or k == 0)
     from_end = len(old) - 1 - here
     k = min(here, len(new) - 1) if here < from_end else max(len(new) - 1 - from_end, 0)
-    return at_stop(state, new[k], lesson=other, edits=())
+    return at_stop(state, new[k], lesson=other, edits=(), picked=None)
 
 
 def turn_view(state: State, turn: Turn) -> State:

@@ -14,6 +14,7 @@ from app.draw.isophotes import isophotes
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
 from app.draw.pointed import Pointed, row_of
 from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
+from app.draw.selected import is_pickable, selected
 from app.draw.theme import NAMES, Theme, theme_of
 from app.state import Spot, State, level_of
 from lessons.script import Beat, Kind, View
@@ -151,6 +152,8 @@ def _content(state: State, view: View, theme: Theme, share: float) -> Scene | Di
     over = shown_mesh(state, view.over) if view.over is not None else None
     options = replace(state.options, net=False) if view.isophotes else state.options
     made = scene(trace.frame(motion.eased(at)), trace, seen, options, theme, row, view.marks, over, share)
+    if state.picked is not None and is_pickable(state, view):
+        made = selected(made, trace.control, state.picked, theme, is_control=at == 0)
     bands = tuple(isophotes(faces, theme.ink, 2.4 * theme.stroke) for faces in made.faces if view.isophotes)
     return replace(made, lines=(*made.lines, *bands))
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from app.draw import motion
 from app.draw.cues import cues
-from app.draw.picture import Camera, Faces, Label, Lines, Markers, Scene, Shape
+from app.draw.picture import Camera, Colour, Faces, Label, Lines, Markers, Scene, Shape
 from app.draw.pointed import Pointed
 from app.draw.theme import NAMES, SHAPES, SIZES, Theme
 from app.state import Options
@@ -43,6 +43,12 @@ beyond the last only the outline is drawn, and the surface speaks for itself."""
 
 GHOSTED = 300
 """Up to so many edges on a whole picture a net leaves a ghost."""
+
+CREASE = 0.18
+"""How much heavier a sharp edge is for each unit of its sharpness, relative to a smooth one."""
+
+CORNER = 0.22
+"""How far the heavy strokes of a sharp vertex reach along its edges."""
 
 PALE = 0.4
 """What is left of helpers once every vertex has gone to the centroid of its own."""
@@ -157,9 +163,36 @@ def _net(frame: Frame, theme: Theme, options: Options, share: float) -> tuple[Li
         Lines(points, ends[_outline(t) & ~faint], theme.edge, width),
         Lines(points, ends[inner & ~new], theme.edge, width, strength),
         Lines(points, ends[inner & new], theme.edge, width, strength * growth),
-        Lines(points, ends[~faint & sharp], theme.ink, 2.2 * width),
+        *_creases(t, points, ~faint & sharp, theme.ink, width),
+        *_corners(t, points, theme.ink, width),
     ]
     return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
+
+
+def _creases(t: Connectivity, points: Floats, sharp: Mask, colour: Colour, width: float) -> list[Lines]:
+    """Sharp edges: the sharper, the heavier."""
+    if not isinstance(t, Topology):
+        return []
+    steps = np.ceil(2 * t.edge_sharpness) / 2
+    return [
+        Lines(points, t.ends[sharp & (steps == step)], colour, float(1.2 + CREASE * step) * width)
+        for step in np.unique(steps[sharp])
+    ]
+
+
+def _corners(t: Connectivity, points: Floats, colour: Colour, width: float) -> list[Lines]:
+    """Sharp vertices: the first part of every edge there is heavy, the heavier the sharper."""
+    if not isinstance(t, Topology) or not (sharp := t.vertex_sharpness > 0).any():
+        return []
+    spokes = np.concatenate([t.ends, t.ends[:, ::-1]])
+    steps = np.ceil(2 * t.vertex_sharpness[spokes[:, 0]]) / 2 * sharp[spokes[:, 0]]
+    tips = points[spokes[:, 0]] + CORNER * (points[spokes[:, 1]] - points[spokes[:, 0]])
+    pairs = np.stack([spokes[:, 0], len(points) + np.arange(len(spokes))], axis=1)
+    both = np.vstack([points, tips])
+    return [
+        Lines(both, pairs[steps == step], colour, float(1.2 + CREASE * step) * width)
+        for step in np.unique(steps[steps > 0])
+    ]
 
 
 def _stroke(t: Connectivity, share: float) -> float:

@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 
 from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 
+from app.boxlab import move_pass, move_vector
 from app.state import State, drag, look, seek, settle, tick, turn_view
 
 STAGE = 0.8
@@ -22,7 +23,7 @@ REMEMBERED = 500
 
 Transition: TypeAlias = Callable[..., State]
 
-GESTURES = (seek, drag, turn_view)
+GESTURES = (seek, drag, turn_view, move_vector, move_pass)
 """Many of these in a row are one change to undo, until the hand lets go."""
 
 
@@ -114,4 +115,4 @@ def _is_passing(transition: Transition, before: State, after: State) -> bool:
 
 
 def _plain(state: State) -> State:
-    return replace(state, focus=None, options=replace(state.options, presenting=False, blank=False))
+    return replace(state, focus=None, picked=None, options=replace(state.options, presenting=False, blank=False))

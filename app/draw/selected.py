@@ -1,0 +1,88 @@
+"""What is picked of a control object, pointed out on the scene that shows it."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.draw.picture import Colour, Faces, Lines, Markers, Scene, Shape
+from app.draw.theme import Theme
+from app.state import Picked, State
+from lessons.script import View
+from subdivision import Mesh, Polyline
+from subdivision.arrays import Mask
+
+PICKED = "picked"
+"""The name of its markers."""
+
+WIDTH = 9.0
+"""Of a picked edge, in logical points."""
+
+TINT, VEIL = 0.5, 0.45
+"""How much of the selection's colour a picked face takes on, and how dense it is over a finer surface."""
+
+AMID = 0.03
+"""Radius of a marker where there are no others, relative to half the diagonal of the control object."""
+
+
+def is_pickable(state: State, view: View) -> bool:
+    """Whether a view shows the control object itself, so that its parts can be picked."""
+    return view.at(state.progress) == 0 or state.options.control
+
+
+def selected(scene: Scene, control: Mesh, picked: Picked, theme: Theme, *, is_control: bool) -> Scene:
+    """The scene with what is picked in the selection's colour; ``is_control``: its surface is the control object's."""
+    t, numbers = control.topology, np.array(picked.numbers, dtype=np.intp)
+    if picked.kind == "vertex":
+        return _with_markers(scene, control, numbers[numbers < t.n_vertices], theme, 1.5)
+    if picked.kind == "edge":
+        pairs = t.ends[numbers[numbers < t.n_edges]]
+        strokes = Lines(control.points, pairs, theme.selection, WIDTH * theme.stroke)
+        return _with_place(replace(scene, lines=(*scene.lines, strokes)), control, picked, theme)
+    chosen = np.isin(np.arange(t.n_faces), numbers)
+    if is_control:
+        return replace(scene, faces=tuple(part for f in scene.faces for part in _parted(f, chosen[~t.hidden], theme)))
+    veil = Faces(control.points, t.face_sizes, t.origin, theme.selection, VEIL)
+    return replace(scene, faces=(*scene.faces, _only(veil, chosen)))
+
+
+def _with_markers(scene: Scene, control: Mesh, numbers: np.ndarray, theme: Theme, size: float) -> Scene:
+    radius = np.full(len(numbers), size * _radius(scene, control))
+    none = np.full(len(numbers), -1)
+    halo = Markers(
+        control.points[numbers], Shape.HALO, theme.selection, radius, np.ones(len(numbers)), none, PICKED
+    )  # fmt: skip
+    return replace(scene, markers=(*scene.markers, halo))
+
+
+def _with_place(scene: Scene, control: Mesh, picked: Picked, theme: Theme) -> Scene:
+    """The scene with a dot where a point would be inserted into a polygon."""
+    if not isinstance(control.topology, Polyline):
+        return scene
+    a, b = control.points[control.topology.ends[picked.numbers[-1]]]
+    at, radius = (1 - picked.along) * a + picked.along * b, np.array([_radius(scene, control)])
+    dot = Markers(at[None], Shape.SPHERE, theme.selection, radius, np.ones(1), np.full(1, -1), PICKED)
+    return replace(scene, markers=(*scene.markers, dot))
+
+
+def _radius(scene: Scene, control: Mesh) -> float:
+    """As large as the markers that are there."""
+    found = [float(m.radius.max()) for m in scene.markers if len(m.radius)]
+    return max(found, default=AMID * float(np.linalg.norm(np.ptp(control.points, axis=0))) / 2)
+
+
+def _parted(faces: Faces, chosen: Mask, theme: Theme) -> tuple[Faces, ...]:
+    """The faces that are not chosen, and those that are in their colour."""
+    if len(faces.sizes) != len(chosen):
+        return (faces,)
+    tinted = replace(_only(faces, chosen), colour=_mixed(faces.colour, theme.selection))
+    return tuple(part for part in (_only(faces, ~chosen), tinted) if len(part.sizes))
+
+
+def _only(faces: Faces, chosen: Mask) -> Faces:
+    """Some of the faces."""
+    return replace(faces, sizes=faces.sizes[chosen], corners=faces.corners[np.repeat(chosen, faces.sizes)])
+
+
+def _mixed(a: Colour, b: Colour) -> Colour:
+    red, green, blue = ((1 - TINT) * x + TINT * y for x, y in zip(a, b, strict=True))
+    return red, green, blue
