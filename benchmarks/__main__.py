@@ -106,8 +106,7 @@ def creased_and_open() -> None:
 def growth() -> None:
     title("growth with the number of faces", "", "")
     for scheme in SCHEMES.values():
-        for levels in (2, 4):
-            sizes = (1500, 3000, 6000, 12_000)
+        for levels, sizes in ((2, (8000, 16_000, 32_000)), (4, (2000, 4000, 8000))):
             engines = [Ours(ball(n), scheme, levels) for n in sizes]
             for what in ("cold", "warm"):
                 times = in_turns(*(getattr(engine, what) for engine in engines))

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from benchmarks.files import Control
-from subdivision import shapes
+from subdivision import Topology, shapes
 
 
 def solid(name: str) -> Control:
@@ -34,11 +34,12 @@ def opened(control: Control) -> Control:
 
 
 def creased(control: Control, sharpness: float) -> Control:
-    """With creases along the edges that cross three planes."""
-    a = control.corners
-    b = np.roll(control.faces, -1, axis=1).ravel()
-    crosses = ((control.points[a] > 0) != (control.points[b] > 0)).any(axis=1) & (a < b)
-    creases = np.stack([a, b], axis=1)[crosses][::3]
+    """With creases all round, where three planes part its faces."""
+    t = Topology.from_corners(control.sizes, control.corners)
+    side = control.points[control.faces].mean(axis=1) > 0
+    h = np.flatnonzero(t.twin > np.arange(t.n_halfedges))
+    h = h[(side[t.face[h]] != side[t.face[t.twin[h]]]).any(axis=1)]
+    creases = np.stack([t.origin[h], t.origin[t.next[h]]], axis=1)
     name = f"{control.name}, creases of {sharpness:g}"
     return Control(name, control.points, control.sizes, control.corners, creases, sharpness)
 

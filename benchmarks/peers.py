@@ -38,7 +38,7 @@ def by_pyvista(points, faces, levels):
 
     cells = np.column_stack([np.full(len(faces), 3), faces])
     fine = pyvista.PolyData(points, cells).subdivide(levels, "loop")
-    return fine.points, fine.faces
+    return fine.points, fine.faces.reshape(-1, 4)
 
 
 def by_open3d(points, faces, levels):

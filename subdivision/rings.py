@@ -7,11 +7,11 @@ can be unfolded into a small mesh of its own, and found again round every face o
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, Mask
+from subdivision.arrays import Floats, Indices, Mask, taken
 from subdivision.kernels import is_smooth
 from subdivision.topology import Topology
 
@@ -45,107 +45,132 @@ class RingFace:
 
 
 @dataclass(frozen=True)
+class Ring:
+    """The faces round one face, every one once; vertices are numbered from 0, the corners of the face itself first.
+
+    Attributes
+    ----------
+    faces : (RingFace, ...)
+    spokes : for each corner (int, ...)
+        The other ends of its edges, in the order of ``Fan.sharpness``.
+    n_vertices : int
+        How many points the surface of the face is made of.
+    """
+
+    faces: tuple[RingFace, ...]
+    spokes: tuple[tuple[int, ...], ...]
+    n_vertices: int
+
+
+@dataclass(frozen=True)
 class Kind:
     """The fans of the corners of a face, in order."""
 
     fans: tuple[Fan, ...]
 
-    @cached_property
-    def ring(self) -> tuple[RingFace, ...]:
-        """Every face of the ring once; vertices are numbered from 0, the corners of the face itself first."""
-        numbers: dict[Hashable, int] = {("corner", i): i for i in range(len(self.fans))}
-        return tuple(
-            RingFace(i, turn, tuple(numbers.setdefault(self._joined(name), len(numbers)) for name in names))
-            for i in range(len(self.fans))
-            for turn, names in self._around(i)
-        )
+    @property
+    def ring(self) -> Ring:
+        """What is round a face of this kind; sharpness makes no difference."""
+        return ring(tuple((fan.left, fan.right, fan.closed) for fan in self.fans))
 
-    @cached_property
-    def n_vertices(self) -> int:
-        """How many points the surface of the face is made of."""
-        return 1 + max(max(face.vertices) for face in (*self.ring, RingFace(0, 0, tuple(range(len(self.fans))))))
-
-    @cached_property
+    @property
     def creases(self) -> dict[tuple[int, int], float]:
         """The sharp edges at its corners."""
         if not any(fan.sharpness for fan in self.fans):
             return {}
-        numbers = self._numbers
         return {
-            (i, numbers[self._joined(name)]): sharpness
-            for i, fan in enumerate(self.fans)
-            for name, sharpness in zip(self._spokes(i), fan.sharpness, strict=False)
+            (i, end): sharpness
+            for i, (fan, ends) in enumerate(zip(self.fans, self.ring.spokes, strict=True))
+            for end, sharpness in zip(ends, fan.sharpness, strict=bool(fan.sharpness))
             if sharpness
         }
 
     def vertices_around(self, t: Topology, faces: Indices) -> Indices:
         """(n_vertices, n_faces) int: where these are round each of ``faces``, all of this kind."""
         k = len(self.fans)
-        found = np.empty((self.n_vertices, len(faces)), dtype=np.intp)
+        found = np.empty((self.ring.n_vertices, len(faces)), dtype=np.intp)
         for i in range(k):
-            found[i] = t.origin[k * faces + i]
+            found[i] = taken(t.origin, k * faces + i)
         seen = k
-        for face in self.ring:
-            if abs(face.turn) == 1 or face.turn == -2:
+        for face in self.ring.faces:
+            if face.turn in (1, -2):
                 at = k * faces + face.corner
-                at = t.next[t.twin[at]] if face.turn == -2 else at
-            at = t.twin[t.prev[at]] if face.turn > 0 else t.next[t.twin[at]]
+            if face.turn == -2:
+                at = taken(t.next, taken(t.twin, at))
+            at = taken(t.twin, taken(t.prev, at)) if face.turn > 0 else taken(t.next, taken(t.twin, at))
             step = at
             for vertex in face.vertices[1:]:
-                step = t.next[step]
+                step = taken(t.next, step)
                 if vertex >= seen:
-                    found[vertex] = t.origin[step]
+                    found[vertex] = taken(t.origin, step)
                     seen += 1
         return found
 
-    @cached_property
-    def _numbers(self) -> dict[Hashable, int]:
-        names = [name for i in range(len(self.fans)) for _, names in self._around(i) for name in names]
-        vertices = [vertex for face in self.ring for vertex in face.vertices]
-        corners: dict[Hashable, int] = {("corner", i): i for i in range(len(self.fans))}
-        return corners | {self._joined(name): v for name, v in zip(names, vertices, strict=True)}
 
-    def _around(self, i: int) -> Iterator[tuple[int, list[Hashable]]]:
-        """The faces round corner ``i``; the one on the right is left to the next corner, which has it on the left."""
-        fan = self.fans[i]
-        quad = len(self.fans) == 4
-        for j in range(1, fan.left + (not fan.closed)):
-            opposite = [self._opposite(i, j)] if quad else []
-            yield j, [("corner", i), self._left(i, j), *opposite, self._left(i, j + 1)]
-        for j in range(2, fan.right + 1):
-            opposite = [("right opposite", i, j)] if quad else []
-            yield -j, [("corner", i), self._right(i, j), *opposite, self._right(i, j - 1)]
+Shape = tuple[tuple[int, int, bool], ...]
+"""``left``, ``right`` and ``closed`` of the fan of each corner."""
 
-    def _spokes(self, i: int) -> list[Hashable]:
-        fan = self.fans[i]
-        left = [self._left(i, j) for j in range(fan.left + 1 + (not fan.closed))]
-        return left + [self._right(i, j) for j in range(1, fan.right + 1)]
 
-    def _left(self, i: int, j: int) -> Hashable:
-        """The end of edge ``j`` round corner ``i``, counter-clockwise from the one that follows it in the face."""
-        k, fan = len(self.fans), self.fans[i]
-        if j < 2:
-            return "corner", (i + 1, i - 1)[j] % k
-        if fan.closed and j == fan.left:
-            return "beside", i
-        return ("beside", (i - 1) % k) if k == 3 and j == 2 else ("left", i, j)
+@lru_cache(maxsize=4096)
+def ring(shape: Shape) -> Ring:
+    """The ring round a face, from nothing but numbers."""
+    k = len(shape)
+    numbers: dict[Hashable, int] = {("corner", i): i for i in range(k)}
 
-    def _right(self, i: int, j: int) -> Hashable:
-        if j == 0:
-            return "corner", (i + 1) % len(self.fans)
-        return ("beside", i) if j == 1 else ("right", i, j)
+    def numbered(names: list[Hashable]) -> tuple[int, ...]:
+        return tuple(numbers.setdefault(_joined(shape, name), len(numbers)) for name in names)
 
-    def _opposite(self, i: int, j: int) -> Hashable:
-        return ("beside", (i - 1) % 4) if j == 1 else ("left opposite", i, j)
+    faces = tuple(RingFace(i, turn, numbered(names)) for i in range(k) for turn, names in _around(shape, i))
+    spokes = tuple(numbered(_spokes(shape, i)) for i in range(k))
+    return Ring(faces, spokes, len(numbers))
 
-    def _joined(self, name: Hashable) -> Hashable:
-        """Round a corner of three triangles the other two share a vertex: one name for it."""
-        for _ in self.fans:
-            if isinstance(name, tuple) and name[0] == "beside" and len(self.fans) == 3:
-                fan = self.fans[name[1]]
-                if fan.closed and fan.left == 2:
-                    name = ("beside", (name[1] - 1) % 3)
-        return name
+
+def _around(shape: Shape, i: int) -> Iterator[tuple[int, list[Hashable]]]:
+    """The faces round corner ``i``; the one on the right is left to the next corner, which has it on the left."""
+    left, right, closed = shape[i]
+    quad = len(shape) == 4
+    for j in range(1, left + (not closed)):
+        opposite = [_opposite(i, j)] if quad else []
+        yield j, [("corner", i), _left(shape, i, j), *opposite, _left(shape, i, j + 1)]
+    for j in range(2, right + 1):
+        opposite = [("right opposite", i, j)] if quad else []
+        yield -j, [("corner", i), _right(shape, i, j), *opposite, _right(shape, i, j - 1)]
+
+
+def _spokes(shape: Shape, i: int) -> list[Hashable]:
+    left, right, closed = shape[i]
+    return [_left(shape, i, j) for j in range(left + 1 + (not closed))] + [
+        _right(shape, i, j) for j in range(1, right + 1)
+    ]
+
+
+def _left(shape: Shape, i: int, j: int) -> Hashable:
+    """The end of edge ``j`` round corner ``i``, counter-clockwise from the one that follows it in the face."""
+    k, (left, _, closed) = len(shape), shape[i]
+    if j < 2:
+        return "corner", (i + 1, i - 1)[j] % k
+    if closed and j == left:
+        return "beside", i
+    return ("beside", (i - 1) % k) if k == 3 and j == 2 else ("left", i, j)
+
+
+def _right(shape: Shape, i: int, j: int) -> Hashable:
+    if j == 0:
+        return "corner", (i + 1) % len(shape)
+    return ("beside", i) if j == 1 else ("right", i, j)
+
+
+def _opposite(i: int, j: int) -> Hashable:
+    return ("beside", (i - 1) % 4) if j == 1 else ("left opposite", i, j)
+
+
+def _joined(shape: Shape, name: Hashable) -> Hashable:
+    """Round a corner of three triangles the other two share a vertex: one name for it."""
+    if len(shape) == 3:
+        for _ in shape:
+            if isinstance(name, tuple) and name[0] == "beside" and shape[name[1]] == (2, 0, True):
+                name = ("beside", (name[1] - 1) % 3)
+    return name
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,18 +214,18 @@ def unfolded(kinds: tuple[Kind, ...]) -> tuple[Topology, Indices]:
     ``number`` (n_vertices,) int says which vertex of its kind every vertex is.
     """
     k = len(kinds[0].fans)
-    begin = np.cumsum([0, *(kind.n_vertices for kind in kinds)])
+    begin = np.cumsum([0, *(kind.ring.n_vertices for kind in kinds)])
     faces = [b + i for b in begin[:-1].tolist() for i in range(k)]
     creases: dict[tuple[int, int], float] = {}
     corners: dict[int, float] = {}
     for b, kind in zip(begin.tolist(), kinds, strict=False):
-        faces += [b + v for face in kind.ring for v in face.vertices]
+        faces += [b + v for face in kind.ring.faces for v in face.vertices]
         creases |= {(b + i, b + j): sharpness for (i, j), sharpness in kind.creases.items()}
         corners |= {b + i: fan.pinned for i, fan in enumerate(kind.fans) if fan.pinned}
     t = Topology.from_corners(
         np.full(len(faces) // k, k), np.array(faces), int(begin[-1]), creases=creases, corners=corners
     )
-    return t, np.concatenate([np.arange(kind.n_vertices) for kind in kinds])
+    return t, np.concatenate([np.arange(kind.ring.n_vertices) for kind in kinds])
 
 
 def with_ring(t: Topology, ours: Mask) -> tuple[Topology, Indices, Mask]:

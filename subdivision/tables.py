@@ -270,7 +270,7 @@ def _tables(kinds: tuple[Kind, ...], depth: int, kernels: Kernels) -> list[Float
     first, each = descendants(k, len(kinds), depth)
     faces = t.origin.reshape(-1, k)[ours][first + each * np.arange(len(kinds))[:, None]]
     vertices = faces.reshape(len(kinds), -1)[:, template(k, depth).first]
-    return [points[own, : kind.n_vertices] for own, kind in zip(vertices, kinds, strict=True)]
+    return [points[own, : kind.ring.n_vertices] for own, kind in zip(vertices, kinds, strict=True)]
 
 
 def _counted(begin: Indices, step: Indices, out: Indices) -> None:
