@@ -28,4 +28,4 @@ def columns(*parts: Indices) -> Indices:
 
 def taken(array: NDArray[Scalar], index: Indices) -> NDArray[Scalar]:
     """``array[index]`` (rows of it), fast; an index outside stands for the nearest inside."""
-    return np.take(array, index, axis=0, mode="clip")
+    return array.take(index, axis=0, mode="clip")

@@ -61,6 +61,27 @@ class Ring:
     spokes: tuple[tuple[int, ...], ...]
     n_vertices: int
 
+    def around(self, t: Topology, faces: Indices) -> Indices:
+        """(n_vertices, n_faces) int: where its vertices are round each of ``faces``."""
+        k = len(self.spokes)
+        found = np.empty((self.n_vertices, len(faces)), dtype=np.intp)
+        for i in range(k):
+            found[i] = taken(t.origin, k * faces + i)
+        seen = k
+        for face in self.faces:
+            if face.turn in (1, -2):
+                at = k * faces + face.corner
+            if face.turn == -2:
+                at = taken(t.next, taken(t.twin, at))
+            at = taken(t.twin, taken(t.prev, at)) if face.turn > 0 else taken(t.next, taken(t.twin, at))
+            step = at
+            for vertex in face.vertices[1:]:
+                step = taken(t.next, step)
+                if vertex >= seen:
+                    found[vertex] = taken(t.origin, step)
+                    seen += 1
+        return found
+
 
 @dataclass(frozen=True)
 class Kind:
@@ -84,27 +105,6 @@ class Kind:
             for end, sharpness in zip(ends, fan.sharpness, strict=bool(fan.sharpness))
             if sharpness
         }
-
-    def vertices_around(self, t: Topology, faces: Indices) -> Indices:
-        """(n_vertices, n_faces) int: where these are round each of ``faces``, all of this kind."""
-        k = len(self.fans)
-        found = np.empty((self.ring.n_vertices, len(faces)), dtype=np.intp)
-        for i in range(k):
-            found[i] = taken(t.origin, k * faces + i)
-        seen = k
-        for face in self.ring.faces:
-            if face.turn in (1, -2):
-                at = k * faces + face.corner
-            if face.turn == -2:
-                at = taken(t.next, taken(t.twin, at))
-            at = taken(t.twin, taken(t.prev, at)) if face.turn > 0 else taken(t.next, taken(t.twin, at))
-            step = at
-            for vertex in face.vertices[1:]:
-                step = taken(t.next, step)
-                if vertex >= seen:
-                    found[vertex] = taken(t.origin, step)
-                    seen += 1
-        return found
 
 
 Shape = tuple[tuple[int, int, bool], ...]
@@ -180,6 +180,19 @@ class Sorted:
     kinds: tuple[Kind, ...]
     faces: Indices
     start: Indices
+
+    def rings(self, t: Topology) -> list[Indices]:
+        """What is round the faces of each kind; kinds whose rings are alike are walked together."""
+        alike: dict[Ring, list[int]] = {}
+        for i, kind in enumerate(self.kinds):
+            alike.setdefault(kind.ring, []).append(i)
+        faces = np.split(self.faces, self.start[1:-1])
+        found = dict[int, Indices]()
+        for ring, some in alike.items():
+            ends = np.cumsum([len(faces[i]) for i in some])
+            together = ring.around(t, np.concatenate([faces[i] for i in some]))
+            found |= zip(some, np.split(together, ends[:-1], axis=1), strict=True)
+        return [found[i] for i in range(len(self.kinds))]
 
 
 def sorted_faces(t: Topology, apart: Mask, at_most: int) -> Sorted | None:

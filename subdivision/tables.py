@@ -233,10 +233,9 @@ def tables(t: Topology, depth: int, kernels: Kernels, at_most: int) -> Tables | 
         :, None
     ] * np.arange(k)
     patches = []
-    for i, (one, table) in enumerate(zip(found.kinds, _tables(found.kinds, depth, kernels), strict=True)):
-        faces = found.faces[found.start[i] : found.start[i + 1]]
+    for i, (around, table) in enumerate(zip(found.rings(t), _tables(found.kinds, depth, kernels), strict=True)):
         patches.append(Patches(
-            ring=one.vertices_around(t, faces),
+            ring=around,
             table=table[np.concatenate([inside, *sides[: owns[i]]])],
             corners=table[:k],
             begin=int(begins[i]),
