@@ -10,7 +10,7 @@ from math import hypot
 
 import numpy as np
 
-from app.draw import dotted
+from app.draw import bars, dotted
 from app.draw.labels import placed
 from app.draw.picture import Box, Camera, Diagram, Dot, Link, Note, Pane, Picture
 from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
@@ -83,6 +83,7 @@ def overlay(
         else:
             seen = camera or fitted(pane.content.camera, area)
             found.extend(placed(pane.content, seen, area, height, picture))
+            found.extend(bars.drawn(pane.content, seen, area, picture, height))
         found.extend(_pane_title(pane, area, picture, height))
         found.extend(_reading(pane, area, picture, height))
     return (*found, *_words(picture, width, height, words).placed)

@@ -1,0 +1,230 @@
+"""What a view shows in the place of its stage, the basis function or the limit, and what its surface wears.
+
+Values at vertices become colours on one scale for all panes, so that they can be compared.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.draw import basis, limits, motion, ramps
+from app.draw.isophotes import isophotes, reflections
+from app.draw.picture import Colour, Diagram, Faces, Lines, Markers, Scene
+from app.draw.theme import Theme
+from app.state import State
+from lessons.script import Look, View
+from subdivision import Frame, Mesh, TopologyError, Trace
+from subdivision.arrays import Floats, Indices
+from subdivision.curvature import gauss_curvature, mean_curvature, vertex_normals
+
+SHOWS: Mapping[str, str] = {
+    "": "Plain",
+    "isophotes": "Isophotes",
+    "reflections": "Reflection lines",
+    "normals": "Normals",
+    "mean curvature": "Mean curvature",
+    "gauss curvature": "Gauss curvature",
+}
+"""What a surface shows, and what it is called."""
+
+STRIPED = ("isophotes", "reflections")
+"""They need no net beside them."""
+
+CURVATURES = ("mean curvature", "gauss curvature")
+
+BAND = 2.4
+"""Width of a line of light in logical points."""
+
+SMALL = 0.45
+"""Size of markers on a surface whose curvature is shown, relative to what they are: it is told just where they are."""
+
+QUILL, QUILLS = 0.9, 1500
+"""Length of a normal, relative to the typical edge; more than so many vertices have only some of theirs shown."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """A trace and a place in it; ``framed`` and ``look`` say what the camera sees.
+
+    ``lifted`` is the control point whose basis function it is, -1: none; ``is_limit``: the last stage is the limit.
+    ``remark`` says why what was asked for is not there.
+    """
+
+    trace: Trace
+    at: float
+    framed: Trace
+    look: Look
+    lifted: int = -1
+    is_limit: bool = False
+    remark: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Values:
+    """Numbers (n,) at the first points of a frame, what they are, and whether they have a sign."""
+
+    at: Floats
+    title: str
+    is_signed: bool = False
+
+
+def shown(state: State, view: View) -> Shown:
+    """What a view shows, as the options say."""
+    found = Shown(state.trace(view), view.at(state.progress), view.trace, view.look or state.now.look)
+    if state.options.basis:
+        found = _lifted(state, view, found)
+    if state.options.limit and found.trace.stages:
+        trace, refusal = limits.limit_or_refusal(found.trace, found.at)
+        if trace is not None:
+            return replace(found, trace=trace, at=float(len(trace.stages)), is_limit=True)
+        found = replace(found, remark=" ".join(filter(None, (found.remark, refusal))))
+    return found
+
+
+def _lifted(state: State, view: View, plain: Shown) -> Shown:
+    vertex = held(state, view)
+    vertex = vertex if vertex >= 0 else basis.middle(view.trace.control)
+    try:
+        graph = basis.graph(view.trace, vertex)
+    except TopologyError as reason:
+        return replace(plain, lifted=vertex, remark=str(reason))
+    return replace(plain, trace=graph, framed=graph, look=basis.look_of(view.trace.control, plain.look), lifted=vertex)
+
+
+def held(state: State, view: View) -> int:
+    """The control point in focus, of this view's control object or one like it; -1: none."""
+    spot, views = state.focus, state.now.views
+    if spot is None or spot.stage != 0 or spot.pane >= len(views):
+        return -1
+    n = view.trace.control.topology.n_vertices
+    return spot.point if spot.point < n == views[spot.pane].trace.control.topology.n_vertices else -1
+
+
+def frame_of(what: Shown) -> Frame:
+    """The instant that is shown."""
+    return what.trace.frame(motion.eased(what.at))
+
+
+def values_of(state: State, view: View, what: Shown, frame: Frame) -> Values | None:
+    """The numbers that the surface, or the curve, wears: an influence before a curvature."""
+    vertex = what.lifted if what.lifted >= 0 else held(state, view) if state.options.weights else -1
+    if vertex >= 0 and (what.at > 0 or what.lifted >= 0):
+        name = "Basis function" if what.lifted >= 0 else "Influence"
+        column = influence(what.trace, vertex, motion.eased(what.at))
+        return Values(column, f"{name} of v{vertex}", bool(column.min() < -1e-9))
+    kind = state.options.surface_shows
+    if kind not in CURVATURES or not frame.topology.n_faces:
+        return None
+    mesh = Mesh(frame.topology, frame.points[: frame.topology.n_vertices])
+    curvature = mean_curvature(mesh) if kind == "mean curvature" else gauss_curvature(mesh)
+    return Values(curvature, SHOWS[kind], is_signed=True)
+
+
+def influence(trace: Trace, vertex: int, at: float) -> Floats:
+    """(n_points,): how much of a control point every point holds, also between two stages, where it goes as they go."""
+    k = int(np.ceil(at))
+    after = trace.influence(vertex, k)
+    if k == at:
+        return after
+    before, start, carries = trace.influence(vertex, k - 1), after.copy(), trace.stages[k - 1].carries
+    start[carries >= 0] = before[carries[carries >= 0]]
+    t = at - (k - 1)
+    return np.asarray((1 - t) * start + t * after)
+
+
+def dressed(made: Scene, what: Shown, frame: Frame, state: State, view: View, theme: Theme) -> Scene:
+    """With lines of light, normals, marks on the limit and the sentence; without values."""
+    made = limits.marked(made, what.trace, theme) if what.is_limit else made
+    kind = state.options.surface_shows
+    lines: list[Lines] = []
+    if view.isophotes or kind == "isophotes":
+        lines += [isophotes(faces, theme.ink, BAND * theme.stroke) for faces in made.faces]
+    elif kind == "reflections":
+        lines += [reflections(faces, made.camera, theme.ink, BAND * theme.stroke) for faces in made.faces]
+    elif kind == "normals" and made.faces:
+        lines.append(_quills(frame, theme))
+    elif kind in CURVATURES:
+        made = replace(made, markers=tuple(_shrunk(each) for each in made.markers))
+    is_wanting = bool(kind) and not frame.topology.n_faces
+    remark = what.remark or ("A curve has no surface to show this on." if is_wanting else "")
+    return replace(made, lines=(*made.lines, *lines), remark=remark)
+
+
+def painted(
+    contents: Sequence[Scene | Diagram], values: Sequence[Values | None], theme: Theme
+) -> list[Scene | Diagram]:
+    """Scenes in the colours of their values, all on one scale; the bar of that scale stands in the last of them."""
+    there = [each for each in values if each is not None]
+    if not there:
+        return list(contents)
+    is_signed = any(each.is_signed for each in there)
+    low, high, is_beyond = ramps.ends(np.concatenate([each.at for each in there]), is_signed)
+    bar = ramps.bar(there[0].title, (low, high), is_beyond, theme, is_signed)
+    last = max(k for k, each in enumerate(values) if each is not None)
+    found = list(contents)
+    for k, (scene, each) in enumerate(zip(contents, values, strict=True)):
+        if each is not None and isinstance(scene, Scene):
+            colours = ramps.coloured(each.at, (low, high), theme, is_signed)
+            found[k] = replace(_coloured(scene, colours), bar=bar if k == last else None)
+    return found
+
+
+def _coloured(scene: Scene, colours: Floats) -> Scene:
+    """A surface by its vertices; where there is none, a curve by its strokes and its points."""
+    if scene.faces:
+        return replace(scene, faces=tuple(_worn(each, colours) for each in scene.faces))
+    current = max((len(each.points) for each in scene.lines), default=0)
+    lines = [part for each in scene.lines for part in _binned(each, colours, is_curve=len(each.points) == current)]
+    markers = [part for each in scene.markers for part in _dotted(each, colours)]
+    return replace(scene, lines=tuple(lines), markers=tuple(markers))
+
+
+def _worn(faces: Faces, colours: Floats) -> Faces:
+    return replace(faces, colours=colours[: len(faces.points)])
+
+
+def _binned(lines: Lines, colours: Floats, *, is_curve: bool) -> list[Lines]:
+    """The strokes of a curve in groups of one colour each."""
+    if not is_curve or lines.dashed or len(lines.points) > len(colours):
+        return [lines]
+    mean = colours[lines.pairs].mean(axis=1)
+    return [replace(lines, pairs=lines.pairs[rows], colour=colour) for rows, colour in _groups(mean)]
+
+
+def _dotted(markers: Markers, colours: Floats) -> list[Markers]:
+    """The points that are there now in groups of one colour each."""
+    if markers.stage >= 0 or not len(markers.ids) or (markers.ids < 0).any():
+        return [markers]
+    return [
+        replace(markers, points=markers.points[rows], radius=markers.radius[rows], opacity=markers.opacity[rows],
+                ids=markers.ids[rows], colour=colour)
+        for rows, colour in _groups(colours[markers.ids])
+    ]  # fmt: skip
+
+
+def _groups(colours: Floats) -> list[tuple[Indices, Colour]]:
+    """Rows of nearly one colour, and that colour."""
+    kinds, owner = np.unique(np.round(colours * 64), axis=0, return_inverse=True)
+    found = []
+    for k in range(len(kinds)):
+        rows = np.flatnonzero(owner.ravel() == k)
+        r, g, b = colours[rows].mean(axis=0).tolist()
+        found.append((rows, (r, g, b)))
+    return found
+
+
+def _shrunk(markers: Markers) -> Markers:
+    return replace(markers, radius=SMALL * markers.radius) if markers.stage < 0 else markers
+
+
+def _quills(frame: Frame, theme: Theme) -> Lines:
+    """A stroke along the normal of every vertex, of so many that they can be told apart."""
+    t = frame.topology
+    points = frame.points[: t.n_vertices]
+    ways = vertex_normals(Mesh(t, points))
+    edges = np.linalg.norm(points[t.ends[:, 0]] - points[t.ends[:, 1]], axis=1)
+    picked = np.arange(0, t.n_vertices, -(-t.n_vertices // QUILLS))
+    tips = points[picked] + QUILL * float(np.median(edges)) * max(1.0, (len(points) / 150) ** 0.25) * ways[picked]
+    pairs = np.arange(2 * len(picked)).reshape(2, -1).T
+    return Lines(np.concatenate([points[picked], tips]), pairs, theme.accent, 2.6 * theme.stroke)
