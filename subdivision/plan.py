@@ -23,13 +23,13 @@ from subdivision.topology import INFINITELY_SHARP, Topology
 DEEPEST = 5
 """Tables of more levels would not be faster: a point costs the same at any depth."""
 
-WORTH_TABLES = 8_000
+WORTH_TABLES = 20_000
 """Fine faces from where on laying out tables takes less time than they save."""
 
 FACES_A_KIND, FINE_FACES_A_KIND = 6, 2_000
 """What a kind of face must stand for on average, before and after, to be worth a table."""
 
-SMALL, SMALL_ENOUGH = 16, 25_000
+SMALL, SMALL_ENOUGH = 16, 8_000
 """Control points, and points made of them, up to which one dense matrix is the fastest plan."""
 
 
@@ -56,9 +56,9 @@ class Plan:
 
         Who applies a plan again and again saves the time to find new memory.
         """
-        points = np.ascontiguousarray(points, dtype=float)
         if self.whole is not None:
             return np.matmul(self.whole, points, out=out)
+        points = np.ascontiguousarray(points, dtype=float)
         for step in self.steps[:-1]:
             points = step.apply(points)
         for last in self.steps[-1:]:
@@ -94,7 +94,7 @@ def plan(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
 
 
 def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
-    """The same plan, quicker to make and slower to apply."""
+    """The same plan, quicker to make and, of small meshes, slower to apply."""
     scheme.require(t)
     make = _kernels(t, scheme)
     if make is None or not isinstance(t, Topology) or scheme.refinement is None:

@@ -247,8 +247,8 @@ def trace(scheme: Scheme, control: Mesh, telling: str | None = None, levels: int
 def subdivide(control: Mesh, scheme: Scheme, levels: int) -> Mesh:
     """The mesh after ``levels`` steps; only the last level is kept.
 
-    Faces are numbered as by the stages; so are the vertices, unless there are many levels: ``Plan.numbers``
-    then says where each one is.  For the same mesh with moved points keep the ``plan`` and apply it.
+    Faces are numbered as by the stages; so are the vertices, unless there are more than some 20,000 faces:
+    ``Plan.numbers`` then says where each one is.  For the same mesh with moved points keep its ``plan``.
     """
     made = once(control.topology, scheme, levels)
     return Mesh(made.topology, frozen(made.apply(control.points)))
