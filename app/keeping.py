@@ -23,7 +23,7 @@ from app.boxlab import LONGEST, MOST_VECTORS
 from app.draw.pointed import ACROSS
 from app.draw.theme import THEMES
 from app.lab import LABORATORY, MOST_PANES, Lab, Rule, affordable, lesson_of
-from app.state import Edits, Options, Spot, State, settle
+from app.state import VALENCES, Edits, Options, Spot, State, settle
 from app.strict import Entry, KeepingError, parsed
 from app.turn import FARTHEST, NEAREST, Turn
 from lessons import all_lessons
@@ -333,6 +333,8 @@ def _picture(entry: Entry, room: Options) -> Options:
             chosen[name] = each.flag()
         elif isinstance(usual, str):
             chosen[name] = each.one_of(CHOICES[name])
+        elif isinstance(usual, int):
+            chosen[name] = each.whole(0, VALENCES.stop - 1)
         else:
             chosen[name] = each.number(1 / FASTEST, FASTEST)
     return replace(start, **chosen, **{name: getattr(room, name) for name in OF_THE_ROOM})

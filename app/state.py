@@ -16,11 +16,17 @@ import numpy as np
 from app.lab import LABORATORY, Lab
 from app.turn import REST, Turn
 from lessons.script import Beat, Lesson, View
-from subdivision import Trace
+from subdivision import Topology, Trace
 from subdivision.catalogue import Vectors
 
 Edits: TypeAlias = tuple[tuple[int, tuple[float, float, float]], ...]
 """Control points that were dragged: (vertex, where to), one entry a vertex."""
+
+VALENCES = range(3, 13)
+"""Those that are analysed."""
+
+BESIDE = ("matrix", "lattice", "distances")
+"""Options that share the room beside the picture; 'spectrum' needs all of it."""
 
 STILL = 0.5
 """How long a still is on the timeline; a stage is 1."""
@@ -70,6 +76,9 @@ class Options:
     distances: bool = False
     surface_shows: str = ""
     lattice: bool = False
+    spectrum: bool = False
+    valence: int = 0
+    """Which vertices are analysed; 0: those of the object."""
     as_caption: bool = False
     across: str = "step"
     theme: str = "light"
@@ -77,6 +86,10 @@ class Options:
     through: bool = False
     presenting: bool = False
     blank: bool = False
+
+
+ASIDE = ("matrix", "lattice", "distances")
+"""Options that put something beside the picture, one under another."""
 
 
 @dataclass(frozen=True)
@@ -198,6 +211,30 @@ def axis_of(state: State) -> float:
     return mine[-1].end
 
 
+def valence_of(state: State) -> int:
+    """The valence that is analysed: of the inner vertex pointed at, else the one chosen, else the object's own.
+
+    An object's own is that of most of its extraordinary vertices, the regular one if it has none.
+    """
+    if (found := _valence_pointed_at(state)) in VALENCES:
+        return found
+    t = state.now.lead.trace.control.topology
+    if state.options.valence or not isinstance(t, Topology):
+        return state.options.valence or 4
+    counted = np.bincount(t.valence[t.extraordinary], minlength=VALENCES.stop)[: VALENCES.stop]
+    counted[: VALENCES.start] = 0
+    return int(counted.argmax()) if counted.any() else (6 if t.is_triangular else 4)
+
+
+def _valence_pointed_at(state: State) -> int:
+    """0: no inner vertex of a mesh is pointed at."""
+    spot = state.focus
+    t = state.now.views[spot.pane].trace.topology_at(spot.stage) if spot is not None else None
+    if spot is None or not isinstance(t, Topology) or spot.point >= t.n_vertices or t.on_boundary[spot.point]:
+        return 0
+    return int(t.valence[spot.point])
+
+
 def level_of(state: State) -> int:
     """How many subdivision steps are complete."""
     return _level(state.now.lead.trace, float(np.floor(state.at)))[0]
@@ -239,8 +276,19 @@ def at_stop(state: State, stop: Stop, **changes: Any) -> State:
 def _moved(state: State, **changes: Any) -> State:
     """The state at another place; another lesson, or another camera of it, is seen as it is meant to be."""
     there = replace(state, **changes)
+    there = replace(there, focus=_held(state, there)) if there.focus is None else there
     is_same_view = there.lesson.id == state.lesson.id and there.now.look == state.now.look
     return there if is_same_view else replace(there, turn=REST)
+
+
+def _held(before: State, there: State) -> Spot | None:
+    """The control point in focus, which stays there from stage to stage while control points are shown."""
+    spot, o = before.focus, there.options
+    if spot is None or spot.stage or not (o.basis or o.control) or before.lesson is not there.lesson:
+        return None
+    views, others = before.now.views, there.now.views
+    is_same = spot.pane < min(len(views), len(others)) and views[spot.pane].trace is others[spot.pane].trace
+    return spot if is_same else None
 
 
 def rest(state: State) -> State:
@@ -411,5 +459,13 @@ def choose(state: State, **options: Any) -> State:
 
 
 def toggle(state: State, option: str) -> State:
-    """Switch one of the yes-or-no options."""
-    return choose(state, **{option: not getattr(state.options, option)})
+    """Switch one of the yes-or-no options; what stands beside the picture leaves where there is no room for both."""
+    is_on = not getattr(state.options, option)
+    leaves = ASIDE if option == "spectrum" else ("spectrum",) if option in ASIDE else ()
+    return choose(state, **dict.fromkeys(leaves if is_on else (), False), **{option: is_on})
+
+
+def turn_valence(state: State, by: int) -> State:
+    """Analyse vertices of another valence; whatever is pointed at is let go."""
+    there = min(max(valence_of(state) + by, VALENCES.start), VALENCES.stop - 1)
+    return choose(replace(state, focus=None), valence=there)

@@ -27,13 +27,8 @@ from subdivision.smoothness import (
 )
 from subdivision.spectrum import Ring, ring
 
-VALENCES = range(3, 13)
-"""Those that are looked at."""
-
 EQUAL = 1e-12
 """Eigenvalues so close are the same."""
-
-NO_SADDLE = "at valence 3 there are no saddles"
 
 
 @dataclass(frozen=True)
@@ -47,11 +42,12 @@ class Eigenvalue:
 
 @dataclass(frozen=True)
 class Condition:
-    """Something asked of eigenvalues: whether it holds, and what becomes of the surface, in words."""
+    """Something asked of eigenvalues: whether it holds, what becomes of the surface in a word, and why."""
 
     name: str
     holds: bool
-    words: str
+    word: str
+    why: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,10 +83,10 @@ class Analysis:
     def conditions(self) -> tuple[Condition, Condition, Condition]:
         """A tangent plane, then the bounded curvature of bowls and of saddles."""
         smooth = self._tangent_plane()
-        saddle = Condition("Saddles", smooth.holds, NO_SADDLE)
+        saddles = Condition("Saddles", smooth.holds, "none", "no wave runs twice round three faces")
         if self.ring.valence > 3:
-            saddle = self._curvature("Saddles", self.ring.saddle, smooth.holds)
-        return smooth, self._curvature("Bowls", self.ring.cup, smooth.holds), saddle
+            saddles = self._curvature("Saddles", self.ring.saddle, smooth.holds)
+        return smooth, self._curvature("Bowls", self.ring.cup, smooth.holds), saddles
 
     @property
     def is_smooth(self) -> bool:
@@ -98,21 +94,25 @@ class Analysis:
         return self.conditions[0].holds
 
     def _tangent_plane(self) -> Condition:
-        if not abs(self.rival.value) < self.subdominant - EQUAL:
-            return Condition("C¹", False, f"a tip: mode {self.rival.mode} does not shrink faster than the ring")
+        rival, ring = abs(self.rival.value), self.subdominant
+        if not rival < ring - EQUAL:
+            return Condition(
+                "C¹", False, "a tip", f"mode {self.rival.mode} shrinks by {rival:.4f}, the ring by {ring:.4f}"
+            )
         if not self.chart.is_one_to_one:
-            return Condition("C¹", False, "the characteristic map folds")
-        return Condition("C¹", True, "a tangent plane: λ is double, all else shrinks faster")
+            return Condition("C¹", False, "a fold", "the characteristic map is not one to one")
+        return Condition("C¹", True, "a tangent plane", f"λ is double, all else shrinks faster: {rival:.4f} or less")
 
     def _curvature(self, name: str, value: float, is_smooth: bool) -> Condition:
         square = self.subdominant**2
+        told = f"{value:.4f}, λ² = {square:.4f}"
         if not is_smooth:
-            return Condition(name, False, "no tangent plane, no curvature")
+            return Condition(name, False, "no curvature", "there is no tangent plane")
         if abs(abs(value) - square) <= EQUAL:
-            return Condition(name, True, "bounded curvature, not zero")
+            return Condition(name, True, "bounded", f"{told}: the curvature is bounded and not zero")
         if abs(value) > square:
-            return Condition(name, False, "pinched: curvature grows without bound")
-        return Condition(name, True, "a flat spot: curvature dies out")
+            return Condition(name, False, "pinched", f"{told}: the curvature grows without bound")
+        return Condition(name, True, "flat spot", f"{told}: the curvature dies out")
 
 
 @dataclass(frozen=True)

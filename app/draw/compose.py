@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import accumulate, pairwise
 
-from app.draw import diagrams, lattice, matrices, motion, stencils
+from app.draw import diagrams, lattice, matrices, motion, spectrum, stencils
 from app.draw.framing import camera
 from app.draw.isophotes import isophotes
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
@@ -23,6 +23,9 @@ from subdivision.arrays import Floats
 
 WITH_MATRIX = 0.56
 """The part of the width that is left to the views beside the matrices."""
+
+WITH_SPECTRUM = 0.44
+"""The same beside an extraordinary vertex in numbers."""
 
 WIDE = 2.4
 """Width to height of what the words leave of a picture."""
@@ -39,11 +42,8 @@ def compose(state: State) -> Picture:
         for view, rect in zip(beat.views, _rects(beat), strict=True)
     )
     if asides := _asides(state, theme):
-        tall = 1 / len(asides)
-        panes = (
-            *(_narrowed(pane) for pane in panes),
-            *(Pane(each, (WITH_MATRIX, k * tall, 1 - WITH_MATRIX, tall)) for k, each in enumerate(asides)),
-        )
+        left = WITH_SPECTRUM if state.options.spectrum else WITH_MATRIX
+        panes = (*(_within(pane, 0, left) for pane in panes), *(_within(pane, left, 1 - left) for pane in asides))
     return Picture(
         panes=panes,
         background=theme.background,
@@ -59,13 +59,15 @@ def compose(state: State) -> Picture:
     )
 
 
-def _asides(state: State, theme: Theme) -> tuple[Diagram, ...]:
+def _asides(state: State, theme: Theme) -> tuple[Pane, ...]:
     """What stands beside the views, one under another: the matrices of the step, the vectors of a box spline."""
     lead = _leading_scene(state)
+    if state.options.spectrum and lead is not None:
+        return spectrum.spectrum(state, lead, theme)
     shown = [_matrix(state, lead, theme)] if state.options.matrix and lead is not None else []
     if state.options.lattice and state.vectors:
         shown.append(lattice.lattice(state.vectors, theme))
-    return tuple(shown)
+    return tuple(Pane(each, (0, k / len(shown), 1, 1 / len(shown))) for k, each in enumerate(shown))
 
 
 def _leading_scene(state: State) -> View | None:
@@ -73,9 +75,10 @@ def _leading_scene(state: State) -> View | None:
     return next((v for v in state.now.views if v.kind is Kind.SCENE and v.trace.stages), None)
 
 
-def _narrowed(pane: Pane) -> Pane:
+def _within(pane: Pane, left: float, width: float) -> Pane:
+    """A pane of the whole picture as one of a column of it."""
     x, y, w, h = pane.rect
-    return replace(pane, rect=(WITH_MATRIX * x, y, WITH_MATRIX * w, h))
+    return replace(pane, rect=(left + width * x, y, width * w, h))
 
 
 def _matrix(state: State, view: View, theme: Theme) -> Diagram:

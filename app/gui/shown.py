@@ -17,6 +17,7 @@ SHOWN = (
     ("weights", "Weights", "W"),
     ("control", "Control points", "P"),
     ("matrix", "Matrix", "M"),
+    ("spectrum", "Eigenvalues", "K"),
     ("labels", "Numbers", "L"),
     ("valences", "Valences", "V"),
     ("legend", "Legend", "I"),
