@@ -27,6 +27,9 @@ MOST_VECTORS, LONGEST = 24, 9
 
 BASIS, BASIS_LEVELS = "Basis net", 4
 
+SMALLEST = 5
+"""Points a side of a basis net at least, so that other schemes take it too."""
+
 HALF = 1.1
 """Half the side of a basis net; the point that is lifted is 1 high."""
 
@@ -35,8 +38,8 @@ PRESETS: Mapping[str, Vectors] = MappingProxyType({
     "Bilinear": ((1, 0), (0, 1)) * 2,
     "Biquadratic": ((1, 0), (0, 1)) * 3,
     "Bicubic": ((1, 0), (0, 1)) * 4,
-    "Three-direction linear": THREE_DIRECTION_LINEAR,
-    "Three-direction quartic": THREE_DIRECTION_QUARTIC,
+    "3-direction linear": THREE_DIRECTION_LINEAR,
+    "3-direction quartic": THREE_DIRECTION_QUARTIC,
     "Zwart-Powell": ZWART_POWELL,
 })  # fmt: skip
 
@@ -111,7 +114,7 @@ def basis_net(vectors: Vectors) -> Mesh:
 
 @lru_cache(maxsize=64)
 def _lifted(lost: Vector, diagonal: bool) -> Mesh:
-    n_s, n_t = (2 * each + 3 for each in lost)
+    n_s, n_t = (max(2 * each + 3, SMALLEST) for each in lost)
     i, j = np.meshgrid(np.arange(n_s) - n_s // 2, np.arange(n_t) - n_t // 2, indexing="ij")
     height = (i == 0) & (j == 0)
     points = np.stack([i, j, height], axis=-1).reshape(-1, 3) * (*(HALF / (max(n_s, n_t) // 2),) * 2, 1.0)
@@ -140,7 +143,7 @@ def _become(state: State, vectors: Vectors, telling: str | None = None) -> State
     try:
         return put(state, other)
     except TopologyError as refusal:
-        raise TopologyError(f"{refusal}. Or take the basis function, whose net grows with the vectors") from None
+        raise TopologyError(f"{refusal}; or take the basis function, whose net grows with them") from None
 
 
 def _require(vectors: Vectors) -> None:

@@ -41,6 +41,9 @@ OPEN, DENSE, SHUT = 800, 4000, 28_000
 """Edges on a whole picture: up to the first number they have their full width, up to the second their full colour;
 beyond the last only the outline is drawn, and the surface speaks for itself."""
 
+HEAVY = 2.35
+"""Width of an edge laid over a surface, relative to the edges of the surface itself."""
+
 GHOSTED = 300
 """Up to so many edges on a whole picture a net leaves a ghost."""
 
@@ -82,7 +85,7 @@ def scene(
     faint_before = _faint(frame.before.topology, len(frame.old_points))
     faces = _faces(frame, theme) if options.surface else ()
     lines = (*_net(frame, theme, options, share), *_belonging(frame, theme, options))
-    lines = (*lines, *(_ghost(frame, theme, options, share) if over is None else _laid_over(over, theme)))
+    lines = (*lines, *(_ghost(frame, theme, options, share) if over is None else _laid_over(over, theme, share)))
     if options.ghost:
         lines = (*lines, *cues(frame, theme, faint, faint_before))
     sizes = _sizes(frame, radius, alone=_extent(trace) * MARKER * APART, is_many=_is_many(frame, trace, faint, share))
@@ -374,10 +377,15 @@ def _marks(frame: Frame, marks: tuple[tuple[int, str], ...], theme: Theme) -> tu
     return tuple(Label(frame.points[v], text, theme.ink, 28.0) for v, text in marks)
 
 
-def _laid_over(mesh: Mesh, theme: Theme) -> tuple[Lines, ...]:
-    """Another control object's net, in dashes: heavy ones over a surface, so that they tell over the same edges."""
-    width = theme.stroke * (7.5 if mesh.topology.n_faces else 4.0)
-    return (Lines(mesh.points, mesh.topology.ends, theme.ink, width, dashed=True),)
+def _laid_over(mesh: Mesh, theme: Theme, share: float) -> tuple[Lines, ...]:
+    """Another control object's net, in dashes: heavy ones over a surface, so that they tell over the same edges.
+
+    Of a close net only the outline.
+    """
+    t = mesh.topology
+    width = theme.stroke * (HEAVY * _stroke(t, share) if t.n_faces else 4.0)
+    shown = _outline(t) if t.n_faces and t.n_edges > DENSE * share else np.ones(t.n_edges, dtype=np.bool_)
+    return (Lines(mesh.points, t.ends[shown], theme.ink, width, dashed=True),)
 
 
 def _pointed_out(

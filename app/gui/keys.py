@@ -9,7 +9,10 @@ from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QAbstractSpinBox, QApplication, QLineEdit
 
 from app.draw.pointed import ACROSS
+from app.editing import turn_sharpness
+from app.gui.editing import EDITS, SHARPNESS
 from app.gui.shown import SHOWN
+from app.gui.surface import NEXT, SWITCHES, show_next
 from app.gui.timeline import SPEEDS, next_speed, spoken_speed
 from app.state import (
     Options,
@@ -51,6 +54,10 @@ class Command:
 
 def _wish(transition: Callable[..., State], *args: object, **options: object) -> Does:
     return lambda w: w.session.do(transition, *args, **options)
+
+
+def _edit(transition: Callable[..., State], *args: object) -> Does:
+    return lambda w: w.editing.wish(transition, *args)
 
 
 def _switch(option: str, name: str, key: str) -> Command:
@@ -107,6 +114,9 @@ COMMANDS = (
     Command("blank", "Blank the picture", "Present", (".", "B"), _wish(toggle, "blank"), lambda o: o.blank),
     Command("escape", "Leave full screen, close what is open", "Present", ("Esc",), lambda w: w.escape()),
     *(_switch(option, name, key) for option, name, key in SHOWN),
+    _switch("lattice", "Vectors of a box spline", "D"),
+    *(_switch(option, name, key) for option, name, key in SWITCHES),
+    Command("surface_next", "Surface shows the next", "View", (NEXT,), _wish(show_next)),
     *(_across(k, across) for k, across in enumerate(ACROSS, 1)),
     Command("contents", "Lessons panel", "View", ("F9",), lambda w: w.toggle_panel("contents"), icon="contents"),
     Command("shown", "Details panel", "View", ("F10",), lambda w: w.toggle_panel("details"), icon="shown"),
@@ -121,6 +131,8 @@ COMMANDS = (
     Command("quit", "Quit", "File", ("Ctrl+Q",), lambda w: w.quit()),
     Command("undo", "Undo", "Edit", ("Ctrl+Z",), lambda w: w.session.undo(), repeats=True),
     Command("redo", "Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), lambda w: w.session.redo(), repeats=True),
+    *(Command(id_, name, "Edit", (key,) if key else (), _edit(how)) for id_, name, key, _, how in EDITS),
+    *(Command(id_, name, "Edit", (key,), _edit(turn_sharpness, by), repeats=True) for id_, name, key, by in SHARPNESS),
     Command("keys", "Keys", "Help", ("?", "F1"), lambda w: w.toggle_keys()),
     Command("about", "About Subdivision Studio", "Help", (), lambda w: w.toggle_about()),
     *(_theme(name) for name in ("light", "dark", "projector", "system")),
@@ -137,6 +149,7 @@ MOUSE = (
     ("Why is a point here?", "point at it; click to keep it"),
     ("Move a control point", "drag it; hold X, Y or Z: along an axis"),
     ("Put it back", "double click it"),
+    ("Pick a point, edge or face to edit", "click it in the laboratory; Shift + click: more"),
 )
 """What the mouse does, for the sheet of keys."""
 
@@ -159,7 +172,8 @@ class KeyGuard(QObject):
 
     Qt asks the focus widget first whether it wants a key for itself.  A search box keeps what it can
     type, and its editing keys while there is something to edit; a number all plain keys; a list Up and Down; a button
-    reached by Tab keeps Space.  All other keys of the table are nobody's but the table's.
+    reached by Tab keeps Space; a widget with ``own_keys`` keeps those.  All other keys of the table are nobody's but
+    the table's.
     """
 
     def __init__(self, parent: QObject) -> None:
@@ -192,6 +206,8 @@ def wants(focus: object, event: QKeyEvent) -> bool | None:
         return is_typing or key in (Qt.Key.Key_Up, Qt.Key.Key_Down)
     if isinstance(focus, QAbstractItemView):
         return plain and key in (Qt.Key.Key_Up, Qt.Key.Key_Down)
+    if own := getattr(focus, "own_keys", None):
+        return plain and key in own
     if isinstance(focus, QAbstractButton):
         return plain and key == Qt.Key.Key_Space
     return False

@@ -5,13 +5,15 @@ from functools import partial
 from typing import Any
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from app import bench
+from app.gui.choice import Choice
 from app.gui.look import GRID
 from app.gui.parts import Section, emptied
 from app.gui.session import Session
 from app.gui.stepper import Stepper
+from app.gui.vectors import Vectors
 from app.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, titled
 from app.state import State
 from subdivision import Boundary, Topology, TopologyError, shapes
@@ -40,6 +42,8 @@ class Laboratory(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(Section("Laboratory", self.shape, self.levels, rules, self.more))
+        self.vectors = Vectors(session, self.wish)
+        column.addWidget(self.vectors)
 
     def wish(self, transition: Callable[..., State], *args: Any) -> None:
         """Do it, or say why not; what is shown is then what is so."""
@@ -68,6 +72,7 @@ class Laboratory(QWidget):
         for pane, rule in zip(self.panes, lab.rules, strict=True):
             pane.show_rule(rule)
         self.more.setEnabled(len(lab.rules) < MOST_PANES)
+        self.vectors.show_state(state)
 
     def _fill(self, lab: Lab) -> None:
         emptied(self._column)
@@ -126,34 +131,6 @@ class Pane(QWidget):
             _show_parameter(stepper, parameter, values[parameter.name])
         self.telling.show_values([(t[:1].upper() + t[1:], t) for t in rule.scheme.tellings], rule.told)
         self.boundary.show_values(BOUNDARIES, rule.boundary)
-
-
-class Choice(QWidget):
-    """A name above a list to choose from; ``chosen`` is called with what is chosen by hand."""
-
-    def __init__(self, name: str, chosen: Callable[[Any], None]) -> None:
-        super().__init__()
-        self.box = QComboBox()
-        self.box.setAccessibleName(name)
-        self.box.setToolTip(name)
-        self.box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.box.setMinimumContentsLength(8)
-        self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.box.activated.connect(lambda k: chosen(self.box.itemData(k)))
-        self._values: list[tuple[str, Any]] = []
-        row = QVBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
-        row.addWidget(self.box)
-
-    def show_values(self, values: Sequence[tuple[str, Any]], chosen: Any) -> None:
-        """Offer named values, one of them chosen."""
-        if list(values) != self._values:
-            self._values = list(values)
-            self.box.clear()
-            for name, value in values:
-                self.box.addItem(name, value)
-        self.box.setCurrentIndex(next((k for k, (_, value) in enumerate(values) if value == chosen), -1))
 
 
 def _show_parameter(stepper: Stepper, parameter: Parameter, value: Value) -> None:

@@ -99,6 +99,7 @@ QToolButton:focus { outline: none; border: 2px solid $accent; padding: 2px; }
 QToolButton::menu-indicator { image: none; }
 QPushButton { border: 1px solid $line; border-radius: 6px; padding: 4px 16px; background: $background; }
 QPushButton:hover { background: $tint; }
+QPushButton:checked { background: $chosen; }
 QPushButton:focus { border: 2px solid $accent; padding: 3px 15px; }
 QLineEdit { border: 1px solid $line; border-radius: 6px; padding: 5px 8px; background: $background; }
 QLineEdit:focus { border: 2px solid $accent; padding: 4px 7px; }
@@ -108,7 +109,7 @@ QDoubleSpinBox:focus { border: 2px solid $accent; padding: 2px 3px; }
 QComboBox { border: 1px solid $line; border-radius: 6px; padding: 4px 8px; background: $background; }
 QComboBox:hover { background: $tint; }
 QComboBox:focus { border: 2px solid $accent; padding: 3px 7px; }
-QComboBox::drop-down { border: none; width: 20px; }
+QComboBox::drop-down { border: none; width: 8px; }
 QComboBox QAbstractItemView { border: 1px solid $line; background: $background; selection-background-color: $chosen;
     selection-color: $ink; }
 QListView { border: none; background: transparent; outline: none; }
