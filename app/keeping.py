@@ -21,6 +21,7 @@ import numpy as np
 
 from app.boxlab import LONGEST, MOST_VECTORS
 from app.draw.pointed import ACROSS
+from app.draw.surface import SHOWS
 from app.draw.theme import THEMES
 from app.lab import LABORATORY, MOST_PANES, Lab, Rule, affordable, lesson_of
 from app.state import VALENCES, Edits, Options, Spot, State, settle
@@ -43,7 +44,7 @@ SUFFIX = ".subdivision"
 OF_THE_ROOM = ("presenting", "blank")
 """Options that belong to where one is, not to the picture: they stay as they are."""
 
-CHOICES: Mapping[str, Mapping[str, Any]] = {"theme": THEMES, "across": ACROSS}
+CHOICES: Mapping[str, Mapping[str, Any]] = {"theme": THEMES, "across": ACROSS, "surface_shows": SHOWS}
 """What an option in words may be."""
 
 MOST_BYTES = 32 << 20

@@ -25,9 +25,6 @@ Edits: TypeAlias = tuple[tuple[int, tuple[float, float, float]], ...]
 VALENCES = range(3, 13)
 """Those that are analysed."""
 
-BESIDE = ("matrix", "lattice", "distances")
-"""Options that share the room beside the picture; 'spectrum' needs all of it."""
-
 STILL = 0.5
 """How long a still is on the timeline; a stage is 1."""
 
@@ -89,7 +86,7 @@ class Options:
 
 
 ASIDE = ("matrix", "lattice", "distances")
-"""Options that put something beside the picture, one under another."""
+"""Options that put something beside the picture, one under another; 'spectrum' needs all the room there."""
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import accumulate, pairwise
 
-from app.draw import diagrams, lattice, matrices, motion, spectrum, stencils
+from app.draw import diagrams, distances, lattice, matrices, motion, spectrum, stencils, surface
 from app.draw.framing import camera
-from app.draw.isophotes import isophotes
+from app.draw.limits import LIMIT_POINT
 from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
 from app.draw.pointed import Pointed, row_of
 from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
@@ -37,9 +37,12 @@ PYRAMID, ARRAY = 1.8, 1.4
 def compose(state: State) -> Picture:
     """The picture of a state."""
     theme, beat = dressed(state), state.now
+    rects = _rects(beat)
+    found = [_content(state, view, theme, rect[2] * rect[3]) for view, rect in zip(beat.views, rects, strict=True)]
+    contents = surface.painted([content for content, _ in found], [values for _, values in found], theme)
     panes = tuple(
-        Pane(_content(state, view, theme, rect[2] * rect[3]), rect, view.title, _measured(state, view))
-        for view, rect in zip(beat.views, _rects(beat), strict=True)
+        Pane(content, rect, view.title, _measured(state, view))
+        for content, view, rect in zip(contents, beat.views, rects, strict=True)
     )
     if asides := _asides(state, theme):
         left = WITH_SPECTRUM if state.options.spectrum else WITH_MATRIX
@@ -60,13 +63,15 @@ def compose(state: State) -> Picture:
 
 
 def _asides(state: State, theme: Theme) -> tuple[Pane, ...]:
-    """What stands beside the views, one under another: the matrices of the step, the vectors of a box spline."""
+    """What stands beside the views, one under another: matrices of the step, vectors of a box spline, distances."""
     lead = _leading_scene(state)
     if state.options.spectrum and lead is not None:
         return spectrum.spectrum(state, lead, theme)
     shown = [_matrix(state, lead, theme)] if state.options.matrix and lead is not None else []
     if state.options.lattice and state.vectors:
         shown.append(lattice.lattice(state.vectors, theme))
+    if state.options.distances and lead is not None:
+        shown.append(distances.distances(state, lead, theme))
     return tuple(Pane(each, (0, k / len(shown), 1, 1 / len(shown))) for k, each in enumerate(shown))
 
 
@@ -103,6 +108,8 @@ def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
         points.insert(1, Entry(Shape.SPHERE, theme.extraordinary, EXTRAORDINARY_NAME))
     if CONTRIBUTOR in there:
         points.append(Entry(Shape.SPHERE, theme.selection, CONTRIBUTOR))
+    if LIMIT_POINT in there:
+        points.append(Entry(Shape.SPHERE, theme.accent, LIMIT_POINT))
     return (*points, *stencils.legend(panes, theme))
 
 
@@ -143,22 +150,27 @@ def shown_mesh(state: State, view: View) -> Mesh:
     return Mesh(frame.topology, frame.points[: frame.topology.n_vertices])
 
 
-def _content(state: State, view: View, theme: Theme, share: float) -> Scene | Diagram:
-    """What a pane shows that has a ``share`` of the picture."""
+def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scene | Diagram, surface.Values | None]:
+    """What a pane shows that has a ``share`` of the picture, and the values that its colours will stand for."""
     trace, at, row = state.trace(view), view.at(state.progress), pointed(state, view)
     if view.kind is Kind.DIAGRAM:
-        return diagrams.diagram(trace, at, theme, lit(state, view))
+        return diagrams.diagram(trace, at, theme, lit(state, view)), None
     if view.kind is Kind.STENCIL and view.stencil is not None:
-        return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme)
+        return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme), None
     # of the trace as the lesson has it: dragging a point moves no camera
-    seen = camera(view.trace, view.look or state.now.look, _contributors(view))
-    over = shown_mesh(state, view.over) if view.over is not None else None
-    options = replace(state.options, net=False) if view.isophotes else state.options
-    made = scene(trace.frame(motion.eased(at)), trace, seen, options, theme, row, view.marks, over, share)
+    what = surface.shown(state, view)
+    is_as_told = what.framed is view.trace
+    seen = camera(what.framed, what.look, _contributors(view) if is_as_told else None)
+    over = shown_mesh(state, view.over) if view.over is not None and is_as_told else None
+    is_striped = view.isophotes or state.options.surface_shows in surface.STRIPED
+    options = replace(state.options, net=False) if is_striped and trace.control.topology.n_faces else state.options
+    row = row if is_as_told or row is None or row.place is None else None
+    frame = surface.frame_of(what)
+    made = scene(frame, what.trace, seen, options, theme, row, view.marks, over, share)
     if state.picked is not None and is_pickable(state, view):
-        made = selected(made, trace.control, state.picked, theme, is_control=at == 0)
-    bands = tuple(isophotes(faces, theme.ink, 2.4 * theme.stroke) for faces in made.faces if view.isophotes)
-    return replace(made, lines=(*made.lines, *bands))
+        made = selected(made, what.trace.control, state.picked, theme, is_control=what.at == 0)
+    made = surface.dressed(made, what, frame, state, view, theme)
+    return made, surface.values_of(state, view, what, frame)
 
 
 def _contributors(view: View) -> Floats | None:

@@ -53,7 +53,7 @@ def distances(state: State, view: View, theme: Theme) -> Diagram:
     trace = state.trace(view)
     away = to_limit(trace)
     vertex = _probed(trace, _spot(state, view))
-    probe = Course("angle between normals", refusal="There is no vertex inside a surface here.")
+    probe = Course("Angle between normals", refusal="There is no vertex inside a surface here.")
     if vertex is not None:
         probe = spread(trace, *vertex)
     far, near = _plot(away, theme, theme.ink, 0.0), _plot(probe, theme, theme.accent, TALL + GAP)
@@ -66,7 +66,7 @@ def distances(state: State, view: View, theme: Theme) -> Diagram:
 @lru_cache(maxsize=32)
 def to_limit(trace: Trace) -> Course:
     """For every complete level, the largest distance of its vertices from their limits."""
-    title, found = "largest distance to the limit", []
+    title, found = "Largest distance to the limit", []
     try:
         for k in _ends(trace):
             stage = limit_of(trace.scheme, trace.topology_at(k))
@@ -81,7 +81,7 @@ def to_limit(trace: Trace) -> Course:
 @lru_cache(maxsize=64)
 def spread(trace: Trace, vertex: int, level: int) -> Course:
     """The smoothness probe at a vertex, from the level where it has that number on."""
-    title, found, at = f"angle between normals at v{vertex}", list[float](), vertex
+    title, found, at = f"Angle between normals at v{vertex}", list[float](), vertex
     ends = _ends(trace)
     for here, after in zip(ends[level:], [*ends[level + 1 :], None], strict=True):
         found.append(normal_spread(trace.mesh_at(here), at))
@@ -165,5 +165,5 @@ def said_rate(rate: float) -> str:
 
 def spelled(value: float, course: Course) -> str:
     """A value with its unit: angles in degrees."""
-    unit = "°" if "angle" in course.title else ""
+    unit = "°" if "Angle" in course.title else ""
     return f"{value:.3g}{unit}" if value >= 1e-3 else f"{value:.1e}{unit}".replace("-", "−")

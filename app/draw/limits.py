@@ -7,8 +7,8 @@ import numpy as np
 
 from app.draw.picture import Markers, Scene, Shape
 from app.draw.theme import Theme
-from subdivision import Scheme, Stage, TopologyError, Trace
-from subdivision.limit import limit_stage
+from subdivision import Scheme, Stage, Topology, TopologyError, Trace
+from subdivision.limit import levels_to_settle, limit_stage
 from subdivision.rows import Connectivity
 
 LIMIT_POINT = "limit point"
@@ -18,6 +18,12 @@ UNDER_WAY = "A limit is that of a whole level, and this one is under way."
 
 SMALL = 0.5
 """Size of a limit point, relative to a marker of its level."""
+
+CROWDED = 0.1
+"""... and relative to the typical edge, at most."""
+
+MOST_FACES = 40_000
+"""More than these are not made only to find a limit for a picture: it would have to wait."""
 
 MOST = 3000
 """More limit points than this are not marked."""
@@ -29,10 +35,11 @@ def limit_of(scheme: Scheme, topology: Connectivity) -> Stage:
     Raises
     ------
     TopologyError
-        As there.
+        As there, and where it would keep a picture waiting.
     """
     known = _limits(topology)
     if id(scheme) not in known:
+        _require_quick(scheme, topology)
         known[id(scheme)] = scheme, limit_stage(scheme, topology)
     return known[id(scheme)][1]
 
@@ -40,6 +47,16 @@ def limit_of(scheme: Scheme, topology: Connectivity) -> Stage:
 @lru_cache(maxsize=12)
 def _limits(topology: Connectivity) -> dict[int, tuple[Scheme, Stage]]:
     return {}
+
+
+def _require_quick(scheme: Scheme, topology: Connectivity) -> None:
+    """Sharpness that wears off takes levels, and levels take time."""
+    if isinstance(topology, Topology) and scheme.refinement is not None:
+        levels = levels_to_settle(scheme, topology)
+        if levels > 1 and (faces := scheme.faces_after(topology, levels)) > MOST_FACES:
+            raise TopologyError(
+                f"sharp edges take {levels} more levels to wear off, {faces:,} faces: no limit is shown before that"
+            )
 
 
 def is_whole(trace: Trace, k: float) -> bool:
@@ -78,7 +95,9 @@ def marked(made: Scene, trace: Trace, theme: Theme) -> Scene:
     points, carries = trace.points[-1], trace.stages[-1].carries
     own = [m for m in made.markers if m.stage < 0 and (m.ids >= 0).any()]
     kept = tuple(m for m in made.markers if not any(m is other for other in own))
-    radius = SMALL * max((float(m.radius.max()) for m in own), default=0.0)
+    ends = trace.stages[-1].topology.ends
+    typical = float(np.median(np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1))) if len(ends) else 0.0
+    radius = min(SMALL * max((float(m.radius.max()) for m in own), default=np.inf), CROWDED * typical)
     if not radius or len(points) > MOST:
         return replace(made, markers=kept)
     size, there = np.full(len(points), radius), np.ones(len(points))

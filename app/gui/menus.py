@@ -9,6 +9,7 @@ import lessons
 from app.draw.pointed import ACROSS
 from app.draw.theme import THEMES
 from app.gui.shown import SHOWN
+from app.gui.surface import SWITCHES
 from app.gui.timeline import SPEEDS
 from app.state import open_lesson
 
@@ -19,7 +20,8 @@ MENUS = (
     ("File", ("open", "@Recent", "", "save", "save_as", "copy_link", "paste_link", "", "save_picture", "copy", "",
               "quit")),
     ("Edit", ("undo", "redo")),
-    ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "", *(f"across_{k}" for k in ACROSS), "",
+    ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "",
+              *(option for option, _, _ in SWITCHES), "surface_next", "", *(f"across_{k}" for k in ACROSS), "",
               "camera", "contents", "shown")),
     ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "more", "less",
                 "more_2", "less_2", "", "through",

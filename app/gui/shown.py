@@ -18,6 +18,7 @@ SHOWN = (
     ("control", "Control points", "P"),
     ("matrix", "Matrix", "M"),
     ("spectrum", "Eigenvalues", "K"),
+    ("basis", "Basis function", "H"),
     ("labels", "Numbers", "L"),
     ("valences", "Valences", "V"),
     ("legend", "Legend", "I"),

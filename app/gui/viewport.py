@@ -226,7 +226,7 @@ class Viewport(QWidget):
             if handle is not None:
                 handle(event)
             return True
-        if kind == QEvent.Type.Leave and not self._is_pinned:
+        if kind == QEvent.Type.Leave and not (self._is_pinned or self._state.options.basis):
             self._session.do(look, None)
         return kind in (QEvent.Type.Enter, QEvent.Type.Leave, QEvent.Type.Gesture)
 
@@ -239,7 +239,7 @@ class Viewport(QWidget):
     def _gripped(self, event: QMouseEvent) -> Grip | None:
         """The control point under the mouse, in the hand."""
         spot, camera = self.spot_at(event.position()), self.cameras()[self._pane(event.position())[0]]
-        if spot is None or spot.stage != 0 or camera is None:
+        if spot is None or spot.stage != 0 or camera is None or self._state.options.basis:
             return None
         points = self._state.trace(self._state.now.views[spot.pane]).control.points
         return Grip(spot.point, points[spot.point], event.position(), camera, self.areas()[spot.pane])
@@ -251,7 +251,7 @@ class Viewport(QWidget):
     def _moved(self, event: QMouseEvent) -> None:
         here = event.position()
         if self._press is None:
-            if not self._is_pinned:
+            if not (self._is_pinned or self._state.options.basis):  # a graph would rise under the mouse, away from it
                 self._session.do(look, self.spot_at(here))
             return
         self._is_drag = self._is_drag or (here - self._press).manhattanLength() > TRACK

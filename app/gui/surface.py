@@ -1,0 +1,51 @@
+"""The panel 'Surface shows': what a surface wears, its limit, and how fast the levels go there."""
+
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from app.draw.surface import SHOWS
+from app.gui.choice import Choice
+from app.gui.look import GRID
+from app.gui.session import Session
+from app.gui.shown import Switch
+from app.state import State, choose, toggle
+
+NEXT = "O"
+"""The key that goes on to the next of the choices."""
+
+SWITCHES = (("limit", "Limit surface", "E"), ("distances", "Distances", "F"))
+"""Option, name, key."""
+
+TIPS = {
+    "limit": "Every vertex of this level where it tends to (E)",
+    "distances": "How far each level is from its limit, and how its normals agree (F)",
+}
+
+
+class Surface(QWidget):
+    """One list to choose from, and a switch for each option."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self.shows = Choice("Surface shows", lambda kind: session.do(choose, surface_shows=kind))
+        self.shows.box.setToolTip(f"What the surface shows ({NEXT}: the next)")
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.shows)
+        column.addSpacing(GRID // 2)
+        self.switches = {option: Switch(name, key, session) for option, name, key in SWITCHES}
+        for option, switch in self.switches.items():
+            switch.setToolTip(TIPS[option])
+            switch.clicked.connect(lambda _, option=option: session.do(toggle, option))
+            column.addWidget(switch)
+
+    def show_state(self, state: State) -> None:
+        self.shows.show_values([(name, kind) for kind, name in SHOWS.items()], state.options.surface_shows)
+        for option, switch in self.switches.items():
+            switch.setChecked(getattr(state.options, option))
+
+
+def show_next(state: State) -> State:
+    """The surface shows the next of what it can, in the order of the list, and then nothing again."""
+    kinds = list(SHOWS)
+    return choose(state, surface_shows=kinds[(kinds.index(state.options.surface_shows) + 1) % len(kinds)])
