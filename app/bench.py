@@ -4,13 +4,16 @@ Each of them raises ``TopologyError`` with a sentence where a scheme refuses wha
 state is then as it was.
 """
 
+from contextlib import suppress
 from dataclasses import replace
+from fractions import Fraction
 
 from app.lab import LABORATORY, MOST_PANES, Lab, Rule, affordable, lab_of, lesson_of, natural_family
-from app.state import State, at_stop, settle, stop_level, stops
+from app.state import State, at_stop, choose, settle, stop_level, stops, valence_of
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, TopologyError, shapes
 from subdivision.catalogue import FAMILIES, Value, suiting
+from subdivision.extraordinary import PULL_RULES, pull_rule
 
 FIRST = "cube"
 
@@ -57,6 +60,29 @@ def turn_parameter(state: State, pane: int, number: int, by: int) -> State:
     return choose_parameter(state, pane, number, parameter.next(rule.values[number], by))
 
 
+def pull(state: State, way: Fraction) -> State:
+    """The leading rule goes so far of the way at extraordinary vertices; the same valence stays looked at."""
+    rule = lab_in(state).rules[0]
+    if rule.family not in PULL_RULES:
+        raise TopologyError(f"{rule.scheme.title} has no pull; let the vertex rule be varied first")
+    return choose_parameter(choose(state, valence=valence_of(state)), 0, 0, way)
+
+
+def vary_vertex_rule(state: State) -> State:
+    """The leading rule as one of the family with a pull, which does the same at the valence that is looked at.
+
+    A pull that is no fraction is taken to the nearest step.
+    """
+    rule, n = lab_in(state).rules[0], valence_of(state)
+    found = pull_rule(rule.scheme)
+    if found is None:
+        raise TopologyError(f"{rule.scheme.title} is not told by how far a vertex is pulled")
+    there = found.pull_of(rule.scheme, n)
+    step = FAMILIES[found.family].parameters[0].step
+    way = there if isinstance(there, Fraction) else round(float(there) / step) * step
+    return _with_rule(choose(state, valence=n), 0, replace(rule, family=found.family, parameters=(way,)))
+
+
 def choose_telling(state: State, pane: int, telling: str) -> State:
     """The same matrix in other stages."""
     return _with_rule(state, pane, replace(lab_in(state).rules[pane], telling=telling))
@@ -74,7 +100,9 @@ def compare(state: State) -> State:
         raise TopologyError(f"{MOST_PANES} panes are as many as can be compared")
     families = [family.name for family in suiting(lab.control.topology)]
     free = [name for name in families if name not in {rule.family for rule in lab.rules}] or families
-    rule = replace(lab.rules[0], family=free[0], parameters=(), telling=lab.rules[0].told)  # told alike, if it can be
+    rule = replace(lab.rules[0], family=free[0], parameters=(), telling="")
+    with suppress(TopologyError):  # told alike, if it can be
+        return put(state, replace(lab, rules=(*lab.rules, replace(rule, telling=lab.rules[0].told))))
     return put(state, replace(lab, rules=(*lab.rules, rule)))
 
 

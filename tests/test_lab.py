@@ -73,6 +73,12 @@ def test_panes_play_in_step_and_end_each_level_together():
     assert len(bench.drop(full, 0).lab.rules) == 3
 
 
+def test_a_pane_beside_is_told_alike_where_it_can_be_and_in_its_own_way_where_not():
+    cube, octahedron = (bench.compare(bench.take(bench.enter(START), name)) for name in ("cube", "octahedron"))
+    assert [rule.told for rule in cube.lab.rules] == ["centroid averaging"] * 2
+    assert len(octahedron.now.views) == 2
+
+
 def test_what_a_scheme_refuses_is_said_and_nothing_changes():
     state = bench.enter(START)
     before = state.lab

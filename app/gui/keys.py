@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QAbstractSpinBox, QApplication, QLineEdit
+from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QAbstractSpinBox, QApplication, QComboBox, QLineEdit
 
 from app.draw.pointed import ACROSS
 from app.editing import turn_sharpness
@@ -204,6 +204,8 @@ def wants(focus: object, event: QKeyEvent) -> bool | None:
             return None
         is_typing = plain and event.text().isprintable() and event.text() != ""
         return is_typing or key in (Qt.Key.Key_Up, Qt.Key.Key_Down)
+    if isinstance(focus, QComboBox):
+        return plain and key in (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Space)
     if isinstance(focus, QAbstractItemView):
         return plain and key in (Qt.Key.Key_Up, Qt.Key.Key_Down)
     if own := getattr(focus, "own_keys", None):

@@ -1,0 +1,115 @@
+"""The laboratory in the window: choose, compare, ask, undo; by mouse and keyboard."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+
+from app import bench
+from app.gui.parts import Head
+from app.lab import LABORATORY
+from app.state import choose, drag, last, level_of
+
+pytestmark = pytest.mark.window
+
+
+def open_by_keyboard(window):
+    """Ctrl+K, type, Enter."""
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_K, Qt.KeyboardModifier.ControlModifier)
+    QTest.keyClicks(window.contents.search, "own object")
+    QTest.keyClick(window.contents.search, Qt.Key.Key_Return)
+    assert window.session.state.lesson.id == LABORATORY
+    return window.laboratory
+
+
+def pick(choice, name):
+    """Choose from a list with the keyboard."""
+    choice.box.setFocus()
+    k = choice.box.findText(name, Qt.MatchFlag.MatchStartsWith)
+    assert k >= 0, name
+    for _ in range(abs(k - choice.box.currentIndex())):
+        QTest.keyClick(choice.box, Qt.Key.Key_Down if choice.box.currentIndex() < k else Qt.Key.Key_Up)
+    assert choice.box.currentIndex() == k
+
+
+def test_why_the_cubes_corner_moves_to_five_ninths_is_found_from_the_window_alone(window, qtbot):
+    panel = open_by_keyboard(window)
+    pick(panel.panes[0].family, "Catmull-Clark")
+    window.session.do(last)
+    QTest.mouseClick(panel.levels.less, Qt.MouseButton.LeftButton)
+    assert window.session.state.lab.levels == 1
+    window.session.do(last)
+    trace = window.session.state.now.lead.trace
+    x, y, w, h = window.viewport.areas()[0]
+    flat = window.viewport.cameras()[0].project(trace.points[-1][5], w, h)[0]
+    place = QPoint(round(x + flat[0]), round(y + flat[1]))
+    QTest.mouseMove(window.viewport._plotter, place)
+    QTest.mouseClick(window.viewport._plotter, Qt.MouseButton.LeftButton, pos=place)
+    words = window.why._words.text()
+    assert "v5" in words
+    for weight in ("15/36", "6/36", "1/36"):
+        assert weight in words
+    assert np.abs(np.abs(trace.points[-1][5]) - 5 / 9).max() < 1e-12
+
+
+def test_schemes_are_compared_side_by_side_with_one_camera_and_shared_edits(window, qtbot):
+    panel = open_by_keyboard(window)
+    QTest.mouseClick(panel.more, Qt.MouseButton.LeftButton)
+    assert len(window.session.state.now.views) == len(panel.panes) == 2
+    pick(panel.panes[1].family, "Catmull-Clark")
+    window.session.do(last)
+
+
+    window.session.do(drag, 5, (2.0, -2.0, 2.0))
+    ends = [window.session.state.trace(v).points for v in window.session.state.now.views]
+    assert all(np.abs(points[0][5] - (2.0, -2.0, 2.0)).max() == 0 for points in ends)
+    assert np.abs(ends[0][-1] - ends[1][-1]).max() > 1e-3
+    first, second = window.viewport.cameras()
+    assert np.abs(first.position - second.position).max() < 1e-12
+    window.session.undo()
+    assert window.session.state.edits == ()
+
+
+def test_every_choice_can_be_undone_and_the_panel_follows(window):
+    panel = open_by_keyboard(window)
+    pick(panel.shape, "Torus")
+    assert window.session.state.lab.name == "torus"
+    window.session.undo()
+    for _ in range(20):
+        if window.session.state.lab.name != "cube":
+            window.session.undo()
+    assert panel.shape.box.currentText() == "Cube"
+
+
+def test_a_level_too_many_is_not_offered_and_a_refusal_is_a_sentence(window):
+    panel = open_by_keyboard(window)
+    window.session.do(bench.take, "duck")
+    for _ in range(10):
+        panel.levels.more.click()
+    assert not panel.levels.more.isEnabled()
+    before = window.session.state.lab
+    panel.wish(bench.choose_family, 0, "loop")
+    assert window.session.state.lab is before
+    assert window.banner.isVisible()
+    assert "triangle" in window.banner.words.text()
+
+
+def test_the_timeline_and_the_level_keys_work_on_ones_own_object(window):
+    open_by_keyboard(window)
+    window.session.do(choose, speed=4.0)
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Up)
+    assert level_of(window.session.state) == 1
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Down)
+    assert level_of(window.session.state) == 0
+
+
+def test_a_section_of_the_panel_folds_away_and_comes_back(window):
+
+
+    open_by_keyboard(window)
+    head = next(h for h in window.laboratory.findChildren(Head) if h.text() == "Laboratory")
+    QTest.mouseClick(head, Qt.MouseButton.LeftButton)
+    assert not window.laboratory.levels.isVisible()
+    head.setFocus()
+    QTest.keyClick(head, Qt.Key.Key_Space)
+    assert window.laboratory.levels.isVisible()
