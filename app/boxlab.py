@@ -122,17 +122,20 @@ def _lifted(lost: Vector, diagonal: bool) -> Mesh:
 
 
 def _vectors(state: State) -> Vectors:
-    found = numbered(lab_in(state).rules[0])
-    if not found:
+    return numbered(_lead(state))
+
+
+def _lead(state: State) -> Rule:
+    rule = lab_in(state).rules[0]
+    if not rule.vectors:
         raise TopologyError("the rule that leads is no box spline; choose it as the scheme of the first pane")
-    return found
+    return rule
 
 
 def _become(state: State, vectors: Vectors, telling: str | None = None) -> State:
     """The leading rule with other vectors, told as it was; a basis net is then as large as they need."""
     _require(vectors)
-    lab = lab_in(state)
-    lead = lab.rules[0]
+    lab, lead = lab_in(state), _lead(state)
     told = telling or ("stencils" if lead.told == "stencils" else "in order")
     rule = replace(lead, parameters=(vectors,), telling=told)
     other = replace(lab, rules=(rule, *lab.rules[1:]))

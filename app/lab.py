@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from lessons.measured import difference
-from lessons.script import Beat, Lesson, View, look_at
+from lessons.script import Beat, Lesson, Reading, View, look_at
 from subdivision import Boundary, Mesh, Polyline, Role, Scheme, Stage, Topology, Trace, trace
 from subdivision.catalogue import FAMILIES, Value, Vectors, scheme
 from subdivision.passes import Vector, spelled
@@ -187,29 +187,38 @@ def _left(net: Grid, lost: Vector, levels: int) -> int:
 def _beats(lab: Lab, rules: Sequence[Rule], traces: tuple[Trace, ...]) -> Iterator[Beat]:
     look = look_at(traces[0])
     titles = [_title(rule) if len(rules) > 1 else "" for rule in rules]
-    yield Beat(_opening(lab, traces[0]), _views(lab, traces, titles, [(0, 0)] * len(traces)), look=look)
+    yield Beat(_opening(lab, traces[0]), _views(lab, traces, titles, [(0, 0)] * len(traces), _apart), look=look)
     for level in range(lab.levels):
         n = len(traces[0].step(level).stages)
         for k in range(n):
             stage = traces[0].stages[traces[0].begins(level) + k]
-            stretches = [_stretch(t, level, k, n) for t in traces]
-            yield Beat(_said(stage, level), _views(lab, traces, titles, stretches), look=look)
+            stretches, reading = [_stretch(t, level, k, n) for t in traces], _apart if k + 1 == n else _on_the_way
+            yield Beat(_said(stage, level), _views(lab, traces, titles, stretches, reading), look=look)
 
 
 def _views(
-    lab: Lab, traces: Sequence[Trace], titles: Sequence[str], stretches: Sequence[tuple[int, int]]
+    lab: Lab,
+    traces: Sequence[Trace],
+    titles: Sequence[str],
+    stretches: Sequence[tuple[int, int]],
+    reading: Reading,
 ) -> tuple[View, ...]:
     """A pane for every rule; behind two orders of passes, one with the second laid over the first."""
     panes = [View(t, *stretch, title=title) for t, title, stretch in zip(traces, titles, stretches, strict=True)]
     if lab.other is not None:
-        panes.insert(2, replace(panes[0], title="One over the other", over=panes[1], reading=_apart))
+        panes.insert(2, replace(panes[0], title="One over the other", over=panes[1], reading=reading))
     return tuple(panes)
 
 
 def _apart(a: Mesh, b: Mesh) -> str:
-    """How far two orders are apart; on the way their nets have other shapes."""
+    """How far two orders are apart, where their nets have one shape."""
+    return difference(a, b) if a.topology == b.topology else _on_the_way(a, b)
+
+
+def _on_the_way(a: Mesh, b: Mesh) -> str:
+    """While some passes are still to come: how far apart, or of which shapes, the two nets are."""
     if a.topology == b.topology:
-        return difference(a, b)
+        return f"on the way: {difference(a, b)}"
     shapes = (f"{t.n_s} × {t.n_t}" for t in (a.topology, b.topology) if isinstance(t, Grid))
     return f"on the way: {' and '.join(shapes)} points"
 
