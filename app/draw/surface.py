@@ -62,9 +62,13 @@ class Shown:
 
 @dataclass(frozen=True, eq=False)
 class Values:
-    """Numbers (n,) at the first points of a frame, what they are, and whether they have a sign."""
+    """Numbers (n,) at the first points of a frame, what they are, and whether they have a sign.
+
+    The first ``n_vertices`` of the points are vertices.
+    """
 
     at: Floats
+    n_vertices: int
     title: str
     is_signed: bool = False
 
@@ -112,13 +116,13 @@ def values_of(state: State, view: View, what: Shown, frame: Frame) -> Values | N
     if vertex >= 0 and (what.at > 0 or what.lifted >= 0):
         name = "Basis function" if what.lifted >= 0 else "Influence"
         column = influence(what.trace, vertex, motion.eased(what.at))
-        return Values(column, f"{name} of v{vertex}", bool(column.min() < -1e-9))
+        return Values(column, frame.topology.n_vertices, f"{name} of v{vertex}", bool(column.min() < -1e-9))
     kind = state.options.surface_shows
     if kind not in CURVATURES or not frame.topology.n_faces:
         return None
     mesh = Mesh(frame.topology, frame.points[: frame.topology.n_vertices])
     curvature = mean_curvature(mesh) if kind == "mean curvature" else gauss_curvature(mesh)
-    return Values(curvature, SHOWS[kind], is_signed=True)
+    return Values(curvature, frame.topology.n_vertices, SHOWS[kind], is_signed=True)
 
 
 def influence(trace: Trace, vertex: int, at: float) -> Floats:
@@ -166,16 +170,15 @@ def painted(
     for k, (scene, each) in enumerate(zip(contents, values, strict=True)):
         if each is not None and isinstance(scene, Scene):
             colours = ramps.coloured(each.at, (low, high), theme, is_signed)
-            found[k] = replace(_coloured(scene, colours), bar=bar if k == last else None)
+            found[k] = replace(_coloured(scene, colours, each.n_vertices), bar=bar if k == last else None)
     return found
 
 
-def _coloured(scene: Scene, colours: Floats) -> Scene:
+def _coloured(scene: Scene, colours: Floats, n_vertices: int) -> Scene:
     """A surface by its vertices; where there is none, a curve by its strokes and its points."""
     if scene.faces:
         return replace(scene, faces=tuple(_worn(each, colours) for each in scene.faces))
-    current = max((len(each.points) for each in scene.lines), default=0)
-    lines = [part for each in scene.lines for part in _binned(each, colours, is_curve=len(each.points) == current)]
+    lines = [part for each in scene.lines for part in _binned(each, colours, is_curve=len(each.points) == n_vertices)]
     markers = [part for each in scene.markers for part in _dotted(each, colours)]
     return replace(scene, lines=tuple(lines), markers=tuple(markers))
 
@@ -186,7 +189,7 @@ def _worn(faces: Faces, colours: Floats) -> Faces:
 
 def _binned(lines: Lines, colours: Floats, *, is_curve: bool) -> list[Lines]:
     """The strokes of a curve in groups of one colour each."""
-    if not is_curve or lines.dashed or len(lines.points) > len(colours):
+    if not is_curve or lines.dashed:
         return [lines]
     mean = colours[lines.pairs].mean(axis=1)
     return [replace(lines, pairs=lines.pairs[rows], colour=colour) for rows, colour in _groups(mean)]
