@@ -195,6 +195,8 @@ class KeyGuard(QObject):
 def wants(focus: object, event: QKeyEvent) -> bool | None:
     """Whether the widget in focus keeps a key: yes, no, or as it says itself (None)."""
     key, plain = event.key(), not event.modifiers() & ~HARMLESS
+    if own := getattr(focus, "own_keys", None):
+        return plain and key in own
     if isinstance(focus, QAbstractSpinBox):
         return plain and key not in (Qt.Key.Key_PageDown, Qt.Key.Key_PageUp, Qt.Key.Key_Escape)
     if isinstance(focus, QLineEdit):
@@ -208,8 +210,6 @@ def wants(focus: object, event: QKeyEvent) -> bool | None:
         return plain and key in (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Space)
     if isinstance(focus, QAbstractItemView):
         return plain and key in (Qt.Key.Key_Up, Qt.Key.Key_Down)
-    if own := getattr(focus, "own_keys", None):
-        return plain and key in own
     if isinstance(focus, QAbstractButton):
         return plain and key == Qt.Key.Key_Space
     return False

@@ -40,7 +40,7 @@ HELP = (
 class Lattice(QWidget):
     """Arrows from the origin to the vectors; ``ring`` is the lattice point that is ringed."""
 
-    own_keys = frozenset(WAYS)
+    own_keys = frozenset((*WAYS, *ADDING, *REMOVING))
 
     def __init__(self, session: Session, wish: Callable[..., None]) -> None:
         super().__init__()

@@ -18,10 +18,13 @@ ROW, MOST = 24, 9
 """Height of a row in pixels, and how many rows are seen at once."""
 
 WAYS = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
+REMOVING = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)
 
 
 class Passes(QListWidget):
     """Quadrupling first, then the averages; they are dragged up and down, and the story follows."""
+
+    own_keys = frozenset((*WAYS, *REMOVING))
 
     def __init__(self, session: Session, wish: Callable[..., None]) -> None:
         super().__init__()
@@ -88,7 +91,7 @@ class Passes(QListWidget):
         if key in WAYS and event.modifiers() & Qt.KeyboardModifier.AltModifier:
             self._move(number, number + WAYS[key])
             self._session.let_go()
-        elif key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace) and number >= 0:
+        elif key in REMOVING and number >= 0:
             self._wish(boxlab.remove_vector, number)
         else:
             super().keyPressEvent(event)
