@@ -56,7 +56,9 @@ class Kernel:
         The vertex and edge of each half-edge, and its neighbours in the face; ``behind`` for triangles only.
     start : (n_faces + 1,) int
         Where the half-edges of each face begin.
-    ones : (n_halfedges,) float
+    ends, part : (n_halfedges,) float
+        What an edge point holds of each end, and of each other point that a half-edge brings: 1/4 and 1/4 for quads,
+        3/8 and 1/8 for triangles.  Vertices are brought the same part.
     own, corner : (n_vertices,) float
         How much a vertex holds of itself, and of what each of its corners brings.
     sharp : Sharp or None
@@ -70,7 +72,8 @@ class Kernel:
     ahead: Small
     behind: Small
     start: Small
-    ones: Floats
+    ends: Floats
+    part: Floats
     own: Floats
     corner: Floats
     sharp: Sharp | None
@@ -87,16 +90,12 @@ class Kernel:
         vertices, centres, edges = np.split(made, [len(points), self.n_points - self.coarse.n_edges])
         if self.size == 4:
             self._face_points(points, centres)
-            self._add(self.edge, self.origin, points, edges)
             self._spread(self.edge, centres, edges)
-            edges *= 1 / 4
             self._spread(self.origin, centres, vertices)
         else:
-            self._add(self.edge, self.origin, points, edges)
-            edges *= 3
-            self._add(self.edge, self.behind, points, edges)
-            edges *= 1 / 8
-        self._add(self.origin, self.ahead, points, vertices)
+            _add(self.edge, self.behind, self.part, points, edges)
+        _add(self.edge, self.origin, self.ends, points, edges)
+        _add(self.origin, self.ahead, self.part, points, vertices)
         vertices *= self.corner[:, None]
         vertices += self.own[:, None] * points
         if self.sharp:
@@ -116,18 +115,15 @@ class Kernel:
     def _face_points(self, points: Floats, out: Floats) -> None:
         n, d = out.shape
         _sparsetools.csr_matvecs(
-            n, len(points), d, self.start, self.origin, self.ones, points.reshape(-1), out.reshape(-1)
+            n, len(points), d, self.start, self.origin, self.part, points.reshape(-1), out.reshape(-1)
         )
-        out *= 1 / 4 if self.coarse.is_quadrilateral else (1 / self.coarse.face_sizes)[:, None]
-
-    def _add(self, at: Small, of: Small, points: Floats, out: Floats) -> None:
-        """Every half-edge adds point ``of`` it to ``out`` ``at`` it."""
-        _add(at, of, self.ones, points, out)
+        if not self.coarse.is_quadrilateral:
+            out *= (4 / self.coarse.face_sizes)[:, None]
 
     def _spread(self, at: Small, centres: Floats, out: Floats) -> None:
-        """Every half-edge adds the point of its face to ``out`` ``at`` it."""
+        """Every half-edge adds a part of the point of its face to ``out`` ``at`` it."""
         _sparsetools.csc_matvecs(
-            len(out), len(centres), out.shape[1], self.start, at, self.ones, centres.reshape(-1), out.reshape(-1)
+            len(out), len(centres), out.shape[1], self.start, at, self.part, centres.reshape(-1), out.reshape(-1)
         )
 
 
@@ -148,6 +144,7 @@ def is_smooth(t: Topology) -> bool:
 
 def _kernel(t: Topology, size: int, corner: Floats, brought: int) -> Kernel:
     """``corner`` is what each corner of a smooth vertex weighs, for each of the points ``brought`` there."""
+    ends, part = (1 / 4, 1 / 4) if size == 4 else (3 / 8, 1 / 8)
     own = 1 - brought * corner * np.bincount(t.origin, minlength=t.n_vertices)
     sharp = None
     if not is_smooth(t):
@@ -162,9 +159,10 @@ def _kernel(t: Topology, size: int, corner: Floats, brought: int) -> Kernel:
         ahead=_small(taken(t.origin, t.next)),
         behind=_small(behind),
         start=_small(start),
-        ones=np.ones(t.n_halfedges),
+        ends=np.full(t.n_halfedges, ends),
+        part=np.full(t.n_halfedges, part),
         own=own,
-        corner=corner,
+        corner=corner / part,
         sharp=sharp,
     )
 
