@@ -93,6 +93,14 @@ def choose_boundary(state: State, pane: int, boundary: Boundary) -> State:
     return _with_rule(state, pane, replace(lab_in(state).rules[pane], boundary=boundary))
 
 
+def turn_until(state: State, pane: int, by: int) -> State:
+    """A pane beside the leading one rests a level earlier or later; at the last level it goes along."""
+    lab = lab_in(state)
+    rule = lab.rules[pane]
+    until = min(max((rule.until or lab.levels) + by, 1), lab.levels)
+    return _with_rule(state, pane, replace(rule, until=0 if until == lab.levels else until))
+
+
 def compare(state: State) -> State:
     """One pane more: the next scheme that takes the control object."""
     lab = lab_in(state)

@@ -23,7 +23,7 @@ from app.boxlab import LONGEST, MOST_VECTORS
 from app.draw.pointed import ACROSS
 from app.draw.surface import SHOWS
 from app.draw.theme import THEMES
-from app.lab import LABORATORY, MOST_PANES, Lab, Rule, affordable, lesson_of
+from app.lab import LABORATORY, MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, lesson_of
 from app.state import VALENCES, Edits, Options, Spot, State, settle
 from app.strict import Entry, KeepingError, parsed
 from app.turn import FARTHEST, NEAREST, Turn
@@ -125,6 +125,7 @@ def _laboratory(lab: Lab) -> Table:
                 "parameters": [_parameter(value) for value in rule.parameters],
                 "telling": rule.telling,
                 "boundary": rule.boundary.value,
+                "until": rule.until,
             }
             for rule in lab.rules
         ],
@@ -359,7 +360,7 @@ def _lab(entry: Entry) -> Lab:
 
 
 def _rule(entry: Entry, control: Mesh) -> Rule:
-    table = entry.table(("family", "parameters", "telling", "boundary"))
+    table = entry.table(("family", "parameters", "telling", "boundary"), may=("until",))
     family = FAMILIES[table["family"].one_of(FAMILIES)]
     given = table["parameters"].rows(most=len(family.parameters))
     if given and len(given) < len(family.parameters):
@@ -367,7 +368,8 @@ def _rule(entry: Entry, control: Mesh) -> Rule:
     values = tuple(_value(each, p) for each, p in zip(given, family.parameters, strict=False))
     boundary = Boundary(table["boundary"].one_of([b.value for b in Boundary]))
     try:
-        rule = Rule(family.name, values, boundary=boundary)
+        until = table["until"].whole(0, MOST_LEVELS) if "until" in table else 0
+        rule = Rule(family.name, values, boundary=boundary, until=until)
         rule = replace(rule, telling=table["telling"].one_of(("", *rule.scheme.tellings, *_tellings())))
         rule.scheme.require(rule.bounded(control).topology)
     except TopologyError as refusal:

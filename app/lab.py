@@ -38,12 +38,16 @@ SENTENCES = {
 
 @dataclass(frozen=True)
 class Rule:
-    """What subdivides the control object in one pane: a scheme of the catalogue, a telling, a boundary rule."""
+    """What subdivides the control object in one pane: a scheme of the catalogue, a telling, a boundary rule.
+
+    ``until`` is the level at which a pane beside the leading one rests; 0: it goes along to the last one.
+    """
 
     family: str
     parameters: tuple[Value, ...] = ()
     telling: str = ""
     boundary: Boundary = Boundary.EDGE
+    until: int = 0
 
     @property
     def scheme(self) -> Scheme:
@@ -139,7 +143,8 @@ def lesson_of(lab: Lab) -> Lesson:
         If one of its rules refuses the control object.
     """
     rules = lab.rules if lab.other is None else (lab.rules[0], lab.other, *lab.rules[1:])
-    traces = tuple(_told(lab.control, rule, lab.levels) for rule in rules)
+    lengths = [lab.levels, *(min(rule.until or lab.levels, lab.levels) for rule in rules[1:])]
+    traces = tuple(_told(lab.control, rule, n) for rule, n in zip(rules, lengths, strict=True))
     made = Lesson(LABORATORY, titled(lab.name), SECTION, lambda: _beats(lab, rules, traces))
     _ = made.beats
     return made
@@ -233,7 +238,8 @@ def _title(rule: Rule) -> str:
     if rule.vectors and rule.told != "stencils":
         return f"average {', '.join(map(spelled, rule.passes))}" if rule.passes else "quadruple only"
     boundary = f", {rule.boundary.value.replace('-', ' ')}" if rule.boundary is not Boundary.EDGE else ""
-    return f"{rule.scheme.title}: {rule.told}{boundary}"
+    until = f", to level {rule.until}" if rule.until else ""
+    return f"{rule.scheme.title}: {rule.told}{boundary}{until}"
 
 
 def _opening(lab: Lab, told: Trace) -> str:

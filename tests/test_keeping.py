@@ -141,7 +141,7 @@ def test_every_field_of_the_state_is_kept_or_passes():
     told = {"lesson", "beat", "at", "focus", "edits", "lab", "turn", "options"}
     assert {each.name for each in fields(st.State)} <= told | {"goal", "wait", "picked"}
     assert {each.name for each in fields(Lab)} == {"name", "control", "rules", "levels", "overlay"}
-    assert {each.name for each in fields(Rule)} == {"family", "parameters", "telling", "boundary"}
+    assert {each.name for each in fields(Rule)} == {"family", "parameters", "telling", "boundary", "until"}
 
 
 def test_every_option_in_words_has_its_choices():

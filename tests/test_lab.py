@@ -79,6 +79,18 @@ def test_a_pane_beside_is_told_alike_where_it_can_be_and_in_its_own_way_where_no
     assert len(octahedron.now.views) == 2
 
 
+def test_a_pane_may_rest_at_an_earlier_level_beside_the_one_that_goes_on():
+    state = bench.turn_until(bench.set_levels(bench.compare(bench.enter(START)), 3), 1, -1)
+    assert [len(set(view.trace.levels)) for view in state.now.views] == [3, 2]
+    state = st.last(state)
+    full, early = (subdivide(rule.bounded(state.lab.control), rule.scheme, n)
+                   for rule, n in zip(state.lab.rules, (3, 2), strict=True))
+    assert np.abs(shown(state, 0).points - full.points).max() < 1e-12
+    assert np.abs(shown(state, 1).points - early.points).max() < 1e-12
+    assert "to level 2" in state.now.views[1].title
+    assert bench.turn_until(state, 1, 1).lab.rules[1].until == 0
+
+
 def test_what_a_scheme_refuses_is_said_and_nothing_changes():
     state = bench.enter(START)
     before = state.lab

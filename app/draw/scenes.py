@@ -59,6 +59,9 @@ PALE = 0.4
 FEW = 60
 """Up to so many points, ids and valences are written at them."""
 
+PALEST, DEEPEST = 0.35, 0.8
+"""How deep the colour of the lightest and of the heaviest contributor is."""
+
 CONTRIBUTOR, POINTED_OUT = "contributor", "pointed out"
 """Names of the markers of a stencil."""
 
@@ -398,7 +401,8 @@ def _pointed_out(
     weights = np.abs(stencil.weights)
     size = radius * (0.7 + 1.1 * np.sqrt(weights / weights.max()))
     none = np.full(len(parents), -1)
-    rings = Markers(parents, Shape.SPHERE, theme.selection, size, np.full(len(parents), 0.55), none, CONTRIBUTOR)
+    shade = PALEST + (DEEPEST - PALEST) * weights / weights.max()
+    rings = Markers(parents, Shape.SPHERE, theme.selection, size, shade, none, CONTRIBUTOR)
     chosen = Markers(
         point[None], Shape.HALO, theme.selection, np.array([1.5 * radius]), np.ones(1), none[:1], POINTED_OUT
     )

@@ -70,7 +70,7 @@ class Laboratory(QWidget):
         most = min(affordable(lab), MOST_LEVELS)
         self.levels.show_value(str(lab.levels), is_least=lab.levels <= 1, is_most=lab.levels >= most)
         for pane, rule in zip(self.panes, lab.rules, strict=True):
-            pane.show_rule(rule)
+            pane.show_rule(rule, lab.levels)
         self.more.setEnabled(len(lab.rules) < MOST_PANES)
         self.vectors.show_state(state)
 
@@ -116,15 +116,25 @@ class Pane(QWidget):
         self.telling = Choice("Told", partial(wish, bench.choose_telling, number))
         self.boundary = Choice("Boundary", partial(wish, bench.choose_boundary, number))
         self.boundary.setVisible(is_open)
+        self.until = Stepper("to level", partial(wish, bench.turn_until, number))
+        self.until.setVisible(number > 0)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(GRID // 2)
         if is_one_of_many:
             column.addWidget(_numbered(number, partial(wish, bench.drop, number)))
-        for part in (self.family, *(stepper for _, stepper in self.parameters), self.telling, self.boundary):
+        for part in (
+            self.family,
+            *(stepper for _, stepper in self.parameters),
+            self.telling,
+            self.boundary,
+            self.until,
+        ):
             column.addWidget(part)
 
-    def show_rule(self, rule: Rule) -> None:
+    def show_rule(self, rule: Rule, levels: int) -> None:
+        until = min(rule.until or levels, levels)
+        self.until.show_value(str(until), is_least=until <= 1, is_most=until >= levels)
         self.family.show_values(self._families, rule.family)
         values = {p.name: v for p, v in zip(FAMILIES[rule.family].parameters, rule.values, strict=True)}
         for parameter, stepper in self.parameters:
