@@ -24,7 +24,7 @@ from subdivision.arrays import Floats
 WITH_MATRIX = 0.56
 """The part of the width that is left to the views beside the matrices."""
 
-WITH_SPECTRUM = 0.44
+WITH_SPECTRUM = 0.38
 """The same beside an extraordinary vertex in numbers."""
 
 WIDE = 2.4

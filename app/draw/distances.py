@@ -126,9 +126,8 @@ def _plot(course: Course, theme: Theme, colour: Colour, top: float) -> Diagram:
     axes = [Link(0, top, 0, bottom, theme.muted, width=1.6), Link(0, bottom, WIDE, bottom, theme.muted, width=1.6)]
     notes = [Note(0, top - 1.15, course.title, colour)]
     if not shown:
-        said = course.refusal or "It is 0 at every level."
-        said_there = Note(WIDE / 2, top + TALL / 2, said, theme.muted, "center")
-        return _part([], axes, [*notes, said_there])
+        why = course.refusal or "It is 0 at every level."
+        return _part([], [], [*notes, Note(WIDE / 2, top + TALL / 2, why, theme.muted, "center")])
     low, high = np.log10(min(shown)), np.log10(max(shown))
     room = max(high - low, 0.3)
     low, high = (low + high - room) / 2 - SLACK * room, (low + high + room) / 2 + SLACK * room

@@ -344,16 +344,24 @@ def _extraordinary(frame: Frame) -> Mask:
 
 
 def _numbers(frame: Frame, theme: Theme, options: Options) -> tuple[Label, ...]:
-    """Point numbers, or valences at vertices, where there are few enough to be read."""
+    """Point numbers, or valences at vertices, where there are few enough to be read; else at extraordinary ones."""
     n = frame.topology.n_vertices
     if n > FEW:
-        return ()
+        return _extraordinary_valences(frame, theme) if options.valences else ()
     if not (options.labels or options.valences):
         return _copies(frame, theme)
     texts = [f"v{k}" if options.labels else "" for k in range(n)]
     if options.valences:
         texts = [f"{text} n={v}".strip() for text, v in zip(texts, frame.topology.valence, strict=True)]
     return tuple(Label(p, text, theme.ink) for p, text in zip(frame.points[:n], texts, strict=True))
+
+
+def _extraordinary_valences(frame: Frame, theme: Theme) -> tuple[Label, ...]:
+    """Valences at extraordinary vertices, where these are few enough."""
+    found = np.flatnonzero(_extraordinary(frame))
+    if len(found) > FEW:
+        return ()
+    return tuple(Label(frame.points[v], f"n={frame.topology.valence[v]}", theme.ink) for v in found)
 
 
 def _copies(frame: Frame, theme: Theme) -> tuple[Label, ...]:

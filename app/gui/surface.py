@@ -12,12 +12,12 @@ from app.state import State, choose, toggle
 NEXT = "O"
 """The key that goes on to the next of the choices."""
 
-SWITCHES = (("limit", "Limit surface", "E"), ("distances", "Distances", "F"))
+SWITCHES = (("limit", "Limit surface", "J"), ("distances", "Distances", "Q"))
 """Option, name, key."""
 
 TIPS = {
-    "limit": "Every vertex of this level where it tends to (E)",
-    "distances": "How far each level is from its limit, and how its normals agree (F)",
+    "limit": "Every vertex of this level where it tends to (J)",
+    "distances": "How far each level is from its limit, and how its normals agree (Q)",
 }
 
 
