@@ -74,8 +74,8 @@ FAMILIES: Mapping[str, Family] = MappingProxyType({
     family.name: family
     for family in (
         *(Family(each.name, each.title, lambda each=each: each) for each in schemes.SCHEMES),
-        Family("triangle-pull", "Triangles, part of the way", schemes.triangle_pull, (_PULL,)),
-        Family("quad-pull", "Quads, part of the way", schemes.quad_pull, (_PULL,)),
+        Family("triangle-pull", "Triangles, any pull", schemes.triangle_pull, (_PULL,)),
+        Family("quad-pull", "Quads, any pull", schemes.quad_pull, (_PULL,)),
         Family("lane-riesenfeld", "Lane-Riesenfeld", schemes.lane_riesenfeld, (_degree("degree", 3),)),
         Family("chaikin", schemes.CHAIKIN.title, lambda: schemes.CHAIKIN),
         Family("four-point", "Four-point scheme", _four_point, (_TENSION,)),

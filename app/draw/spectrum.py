@@ -42,8 +42,8 @@ def spectrum(state: State, view: View, theme: Theme) -> tuple[Pane, ...]:
     except TopologyError as refusal:
         return Pane(_sentence(str(refusal), theme), (0, 0, 1, 0.7)), Pane(table, (0, 0.7, 1, 0.3))
     return (
-        Pane(_matrix(found.ring, theme), (0, 0, 0.54, 0.42)),
-        Pane(_map(found, theme), (0.54, 0, 0.46, 0.42)),
+        Pane(_matrix(found.ring, theme), (0, 0, 0.64, 0.42)),
+        Pane(_map(found, theme), (0.64, 0, 0.36, 0.42)),
         Pane(_eigenvalues(found, theme), (0, 0.42, 1, 0.34)),
         Pane(table, (0, 0.76, 1, 0.24)),
     )

@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 
 from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 
+from app.bench import pull
 from app.boxlab import move_pass, move_vector
 from app.state import State, drag, look, seek, settle, tick, turn_view
 
@@ -23,7 +24,7 @@ REMEMBERED = 500
 
 Transition: TypeAlias = Callable[..., State]
 
-GESTURES = (seek, drag, turn_view, move_vector, move_pass)
+GESTURES = (seek, drag, turn_view, move_vector, move_pass, pull)
 """Many of these in a row are one change to undo, until the hand lets go."""
 
 

@@ -41,6 +41,7 @@ from app.gui.parts import Section, column
 from app.gui.session import Session
 from app.gui.sheets import About, Keys
 from app.gui.shown import Shown
+from app.gui.spectrum import Spectrum
 from app.gui.surface import Surface
 from app.gui.timeline import Timeline, tool_button
 from app.gui.viewport import Viewport
@@ -82,6 +83,7 @@ class Window(QMainWindow):
         self.contents = Contents(session, lessons.all_lessons())
         self.contents.found.connect(self.leave_search)
         self.laboratory = Laboratory(session, self.banner.say)
+        self.spectrum = Spectrum(session, self.laboratory.wish)
         self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
         self.surface = Surface(session)
         self._build()
@@ -91,7 +93,7 @@ class Window(QMainWindow):
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
         self._views = (
             self.viewport, self.banner, self.timeline, self.contents,
-            self.laboratory, self.knobs, self.shown, self.surface, self.why, self.notes,
+            self.laboratory, self.spectrum, self.knobs, self.shown, self.surface, self.why, self.notes,
         )  # fmt: skip
         self._restore()
         session.changed.connect(self.show_state)
@@ -336,7 +338,7 @@ class Window(QMainWindow):
     def _details(self) -> QWidget:
         why = Section("Why is it here?", self.why, stretched=self.why)
         shown, surface = Section("Shown", self.shown), Section("Surface shows", self.surface)
-        inside = column(self.laboratory, self.knobs, shown, surface, why, self.notes, stretched=why)
+        inside = column(self.laboratory, self.spectrum, self.knobs, shown, surface, why, self.notes, stretched=why)
         inside.setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)
         scroll = QScrollArea(widgetResizable=True)
         scroll.setWidget(inside)
