@@ -13,7 +13,7 @@ import numpy as np
 
 from subdivision import kernels, refine
 from subdivision.arrays import Floats, Indices, frozen
-from subdivision.kernels import Kernel
+from subdivision.kernels import Kernel, Rows, assembled
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
@@ -41,14 +41,14 @@ class Plan:
     ----------
     topology : Connectivity
         The outcome's.  Of meshes, half-edges, edges and faces are numbered as by the stages.
-    steps : (Kernel or Step or Tables, ...)
+    steps : (Kernel or Rows or Step or Tables, ...)
         One after the other they make the points.
     whole : (n_vertices after, n_vertices before) float, optional
         The product of the steps, where that is small.
     """
 
     topology: Connectivity
-    steps: tuple[Kernel | Step | Tables, ...]
+    steps: tuple[Kernel | Rows | Step | Tables, ...]
     whole: Floats | None = None
 
     def apply(self, points: Floats, out: Floats | None = None) -> Floats:
@@ -88,9 +88,9 @@ def plan(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
         If the scheme refuses the control object.
     """
     laid_out = once(t, scheme, levels)
-    if t.n_vertices > SMALL or laid_out.topology.n_vertices > SMALL_ENOUGH or not levels:
-        return laid_out
-    return replace(laid_out, whole=np.asfortranarray(laid_out.apply(np.eye(t.n_vertices))))
+    if levels > 0 and t.n_vertices <= SMALL and laid_out.topology.n_vertices <= SMALL_ENOUGH:
+        return replace(laid_out, whole=np.asfortranarray(laid_out.apply(np.eye(t.n_vertices))))
+    return replace(laid_out, steps=tuple(assembled(s) if isinstance(s, Kernel) else s for s in laid_out.steps))
 
 
 def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
