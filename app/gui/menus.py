@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QMenu
 import lessons
 from app.draw.pointed import ACROSS
 from app.draw.theme import THEMES
+from app.gui.editing import EDITS, SHARPNESS
 from app.gui.shown import SHOWN
 from app.gui.surface import SWITCHES
 from app.gui.timeline import SPEEDS
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 MENUS = (
     ("File", ("open", "@Recent", "", "save", "save_as", "copy_link", "paste_link", "", "save_picture", "copy", "",
               "quit")),
-    ("Edit", ("undo", "redo")),
+    ("Edit", ("undo", "redo", "", *(edit[0] for edit in EDITS), "", *(turn[0] for turn in SHARPNESS))),
     ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "",
               *(option for option, _, _ in SWITCHES), "surface_next", "", *(f"across_{k}" for k in ACROSS), "",
               "camera", "contents", "shown")),

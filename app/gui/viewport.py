@@ -12,18 +12,21 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResize
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
+from app import bench
 from app.draw.compose import compose
 from app.draw.layout import fitted, overlay, pane_areas, part_at
 from app.draw.picture import Camera, Picture, Scene
 from app.draw.primitives import Area
+from app.draw.selected import is_pickable
 from app.draw.turned import turned
+from app.editing import extended
 from app.gui.brush import paint
 from app.gui.grip import AXES, Grip
 from app.gui.look import colour
 from app.gui.narration import Narration
-from app.gui.pointing import nearest
+from app.gui.pointing import nearest, part
 from app.gui.session import Session
-from app.state import Spot, State, drag, is_turned_only, look, put_back, turn_view
+from app.state import Picked, Spot, State, drag, is_turned_only, look, pick, put_back, turn_view
 from app.turn import REST, Turn
 
 PANES = 6
@@ -277,6 +280,7 @@ class Viewport(QWidget):
             spot = self.spot_at(event.position())
             self._is_pinned = spot is not None
             self._session.do(look, spot)
+            self._pick(event, spot)
         if self._grip is not None and self._is_drag:
             self._pull.stop()
             self._target = event.position()
@@ -285,6 +289,27 @@ class Viewport(QWidget):
             self._session.let_go()
         self._press, self._is_drag, self._grip = None, False, None
         self._calm.start()
+
+    def _pick(self, event: QMouseEvent, spot: Spot | None) -> None:
+        """Choose what was clicked to be edited, in the laboratory; with Shift, besides what is chosen."""
+        if not bench.is_open(self._state) or self._state.is_playing:
+            return
+        found = self.part_at(event.position(), spot)
+        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            found = extended(self._state.picked, found) if found is not None else self._state.picked
+        self._session.do(pick, found)
+
+    def part_at(self, at: QPointF, spot: Spot | None) -> Picked | None:
+        """The part of the control object at a place: the point there, else an edge, else a face."""
+        if spot is not None:
+            return Picked("vertex", (spot.point,)) if spot.stage == 0 else None
+        k, area = self._pane(at)
+        camera = self.cameras()[k]
+        view = self._state.now.views[k] if camera is not None else self._state.now.lead
+        if camera is None or not is_pickable(self._state, view):
+            return None
+        control, is_solid = self._state.trace(view).control, self._state.options.surface
+        return part(control, camera, area, at.x(), at.y(), is_solid=is_solid)
 
     def _double_clicked(self, event: QMouseEvent) -> None:
         spot = self.spot_at(event.position())

@@ -25,12 +25,14 @@ from PySide6.QtWidgets import (
 )
 
 import lessons
+from app import bench
 from app.draw.theme import THEMES
 from app.gui import menus, saving
 from app.gui.autosave import Autosave
 from app.gui.banner import Banner
 from app.gui.contents import Contents
 from app.gui.document import Document
+from app.gui.editing import EDITS, SHARPNESS, Editing
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
 from app.gui.laboratory import Laboratory
@@ -49,7 +51,7 @@ from app.gui.why import Why
 from app.keeping import SUFFIX, named, taken_up
 from app.link import followed, link
 from app.opening import OPENABLE
-from app.state import State, choose
+from app.state import State, choose, pick
 from app.strict import KeepingError
 
 NAME = "Subdivision Studio"
@@ -83,6 +85,7 @@ class Window(QMainWindow):
         self.contents = Contents(session, lessons.all_lessons())
         self.contents.found.connect(self.leave_search)
         self.laboratory = Laboratory(session, self.banner.say)
+        self.editing = Editing(session, self.banner)
         self.spectrum = Spectrum(session, self.laboratory.wish)
         self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
         self.surface = Surface(session)
@@ -93,7 +96,7 @@ class Window(QMainWindow):
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
         self._views = (
             self.viewport, self.banner, self.timeline, self.contents,
-            self.laboratory, self.spectrum, self.knobs, self.shown, self.surface, self.why, self.notes,
+            self.laboratory, self.editing, self.spectrum, self.knobs, self.shown, self.surface, self.why, self.notes,
         )  # fmt: skip
         self._restore()
         session.changed.connect(self.show_state)
@@ -113,6 +116,8 @@ class Window(QMainWindow):
                 action.setChecked(on(state.options))
         self.actions_by_id["undo"].setEnabled(self.session.can_undo)
         self.actions_by_id["redo"].setEnabled(self.session.can_redo)
+        for id_, *_ in (*EDITS, *SHARPNESS):
+            self.actions_by_id[id_].setEnabled(bench.is_open(state))
         self._star()
         self.actions_by_id["play"].setIcon(icon("pause" if state.is_playing else "play", state.options.theme))
         if state.options.presenting != self._is_presenting:
@@ -143,6 +148,8 @@ class Window(QMainWindow):
             self.toggle_presenting()
         elif self.contents.search.hasFocus():
             self.leave_search()
+        elif state.picked is not None:
+            self.session.do(pick, None)
 
     def toggle_presenting(self) -> None:
         is_on = not self.session.state.options.presenting
@@ -338,7 +345,8 @@ class Window(QMainWindow):
     def _details(self) -> QWidget:
         why = Section("Why is it here?", self.why, stretched=self.why)
         shown, surface = Section("Shown", self.shown), Section("Surface shows", self.surface)
-        inside = column(self.laboratory, self.spectrum, self.knobs, shown, surface, why, self.notes, stretched=why)
+        tools = (self.laboratory, self.editing, self.spectrum, self.knobs)
+        inside = column(*tools, shown, surface, why, self.notes, stretched=why)
         inside.setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)
         scroll = QScrollArea(widgetResizable=True)
         scroll.setWidget(inside)
