@@ -62,14 +62,21 @@ def test_the_faces_of_a_topology_are_the_same_arrays_every_time():
     assert shown_faces(topology)[1] is shown_faces(topology)[1]
 
 
-def test_a_quad_too_concave_for_its_middle_leaves_the_fast_way():
+@pytest.mark.parametrize("k", range(4))
+def test_a_quad_too_concave_for_its_middle_is_cut_from_its_reflex_corner(k):
     polygons = faces("open quads")
     points = polygons.points.copy()
-    a, b, c, d = polygons.corners[:4]
+    a, b, c, d = np.roll(polygons.corners[4 * 37 : 4 * 38], k)
     points[c] = 0.9 * points[a] + 0.05 * (points[b] + points[d])
     dart = replace(polygons, points=points)
-    assert regular.facets(dart) is None
-    assert len(facets(dart).triangles) < 4 * len(dart.sizes)
+    fast, slow = regular.facets(dart), any_facets(dart)
+    cut = fast.owner == 37
+    assert cut.sum() == 2
+    assert {*fast.vertices[fast.triangles[cut]].ravel().tolist()} == {a, b, c, d}
+    assert all(c in fast.vertices[row] for row in fast.triangles[cut])
+    assert len(fast.triangles) == len(slow.triangles) < 4 * len(dart.sizes)
+    (left, _), (right, _) = sorted_corners(dart, fast), sorted_corners(dart, slow)
+    assert np.abs(left.mean(axis=1) - right.mean(axis=1)).max() < 1e-12
 
 
 def test_polygons_of_mixed_sizes_leave_the_fast_way():

@@ -4,7 +4,7 @@ Connectivity is worked out once and known again by the array of corners being th
 where all polygons agree share one point; only where they do not has a corner a point of its own.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -39,43 +39,56 @@ class Facets:
 class _Known:
     """What depends on connectivity only: ``columns`` (size, n_faces) are the corners, first of all, second of all ...
 
-    ``gather`` (n_vertices, n_faces) sums over the faces round each vertex.  ``split`` are the corners with a point of
-    their own, numbered as in ``columns`` laid end to end, and ``cut`` the triangles that go with them.
+    ``gather`` (n_vertices, n_faces) sums over the faces round each vertex.  ``last`` is how it was cut last.
     """
 
     corners: Indices
     n_vertices: int
     columns: Indices
     gather: csr_array
+    last: "_Cut | None" = None
+
+
+@dataclass(frozen=True, eq=False)
+class _Cut:
+    """Triangles, the polygon of each, and the vertex that each point but the middles is.
+
+    ``split`` are the corners with a point of their own, numbered as in ``columns`` laid end to end; ``darts`` the quads
+    too concave for their middle, and ``turn`` (0 or 1) the corner from which each of those is cut.
+    """
+
+    split: Indices
+    darts: Indices
+    turn: Indices
+    triangles: Indices
     owner: Indices
-    split: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
-    cut: Indices | None = None
-    vertices: Indices | None = None
+    vertices: Indices
 
 
 _known: list[_Known] = []
 
+NONE: Indices = np.zeros(0, dtype=np.intp)
+
 
 def facets(faces: Faces) -> Facets | None:
-    """As ``app.draw.geometry.facets``; None where polygons differ in size, or one is too concave for its middle."""
+    """As ``app.draw.geometry.facets``; None where polygons differ in size."""
     known = _recalled(faces)
     if known is None:
         return None
     places: Floats = np.ascontiguousarray(np.asarray(faces.points, dtype=float).T)
     corners = [places[:, column] for column in known.columns]
     area = _areas(corners)
-    if len(corners) == 4 and _is_any_too_concave(corners, area):
-        return None
+    darts, turn = _darts(corners, area) if len(corners) == 4 else (NONE, NONE)
     own = _unit(area, otherwise=(0.0, 0.0, 1.0))
     mean = _unit(np.stack([known.gather @ each for each in own]))
     split = _split(known.columns, own, mean)
-    triangles, vertices = _cut(known, split)
+    known.last = cut = _cut(known, split, darts, turn)
     shades = [mean, _blended(known, split, own, mean)]
     points = [places, places[:, known.columns.ravel()[split]]]
     if len(corners) == 4:
         shades.append(own)
         points.append(sum(corners[1:], start=corners[0]) / 4)
-    return Facets(np.hstack(points).T, np.hstack(shades).T, triangles, vertices, known.owner)
+    return Facets(np.hstack(points).T, np.hstack(shades).T, cut.triangles, cut.vertices, cut.owner)
 
 
 def _recalled(faces: Faces) -> _Known | None:
@@ -90,7 +103,7 @@ def _recalled(faces: Faces) -> _Known | None:
     columns = np.ascontiguousarray(np.asarray(faces.corners, dtype=np.intp).reshape(-1, size).T)
     face = np.tile(np.arange(m), size)
     gather = csr_array((np.ones(size * m), (columns.ravel(), face)), (n, m))
-    _known[:] = [_Known(faces.corners, n, columns, gather, face if size == 4 else np.arange(m)), *_known[: KEPT - 1]]
+    _known[:] = [_Known(faces.corners, n, columns, gather), *_known[: KEPT - 1]]
     return _known[0]
 
 
@@ -101,13 +114,18 @@ def _areas(corners: list[Floats]) -> Floats:
     return _cross(corners[2] - corners[0], corners[3] - corners[1])
 
 
-def _is_any_too_concave(corners: list[Floats], area: Floats) -> bool:
-    """Whether a triangle from an edge to the middle is turned away, by the signed areas of the four of each quad."""
+def _darts(corners: list[Floats], area: Floats) -> tuple[Indices, Indices]:
+    """The quads with an edge whose triangle to the middle is turned away, and the corner, 0 or 1, to cut them from.
+
+    By the signed areas of triangles: of those at the corners 1 and 3, which a cut from corner 0 makes, of the one that
+    lies across, and of the four to the middle.
+    """
     u, v, w = (corner - corners[0] for corner in corners[1:])
-    before, whole, across = ((_cross(*pair) * area).sum(axis=0) for pair in ((u, v), (v, w), (u, w)))
+    before, whole, across = (_dotted(_cross(*pair), area) for pair in ((u, v), (v, w), (u, w)))
     parts = (before + across, whole + across, whole + 2 * before - across, before + 2 * whole - across)
-    least = min(float(part.min()) for part in parts)
-    return least < -1e-12 * max(float((before + whole).max()), 0.0)
+    least = np.minimum(np.minimum(parts[0], parts[1]), np.minimum(parts[2], parts[3]))
+    found = np.flatnonzero(least < -1e-12 * max(float((before + whole).max()), 0.0))
+    return found, (np.minimum(before, whole)[found] < 0).astype(np.intp)
 
 
 def _split(columns: Indices, own: Floats, mean: Floats) -> Indices:
@@ -119,18 +137,25 @@ def _split(columns: Indices, own: Floats, mean: Floats) -> Indices:
     return np.concatenate(found)
 
 
-def _cut(known: _Known, split: Indices) -> tuple[Indices, Indices]:
-    """The triangles, and the vertex that each point but the middles is."""
-    if known.cut is None or known.vertices is None or not np.array_equal(split, known.split):
-        size, m = known.columns.shape
-        number = known.columns.ravel().copy()
-        number[split] = known.n_vertices + np.arange(len(split))
-        corner = number.reshape(size, m)
-        middle = known.n_vertices + len(split) + np.arange(m)
-        sides = [(corner[k], corner[(k + 1) % 4], middle) for k in range(4)] if size == 4 else [tuple(corner)]
-        known.split, known.cut = split, np.concatenate([np.stack(side, axis=1) for side in sides])
-        known.vertices = np.concatenate([np.arange(known.n_vertices), known.columns.ravel()[split]])
-    return known.cut, known.vertices
+def _cut(known: _Known, split: Indices, darts: Indices, turn: Indices) -> _Cut:
+    """As it was cut last, if nothing has changed."""
+    last = known.last
+    if last is not None and all(map(np.array_equal, (split, darts, turn), (last.split, last.darts, last.turn))):
+        return last
+    size, m = known.columns.shape
+    number = known.columns.ravel().copy()
+    number[split] = known.n_vertices + np.arange(len(split))
+    vertices = np.concatenate([np.arange(known.n_vertices), known.columns.ravel()[split]])
+    corner, faces = number.reshape(size, m), np.arange(m)
+    if size == 3:
+        return _Cut(split, darts, turn, np.ascontiguousarray(corner.T), faces, vertices)
+    middle = known.n_vertices + len(split) + faces
+    fan = np.delete(np.arange(m), darts) if len(darts) else faces
+    parts = [np.stack([corner[k, fan], corner[(k + 1) % 4, fan], middle[fan]], axis=1) for k in range(4)]
+    for k in (1, 2):
+        parts.append(np.stack([corner[(turn + j) % 4, darts] for j in (0, k, k + 1)], axis=1))
+    owner = np.concatenate([np.tile(fan, 4), np.tile(darts, 2)])
+    return _Cut(split, darts, turn, np.concatenate(parts), owner, vertices)
 
 
 def _blended(known: _Known, split: Indices, own: Floats, mean: Floats) -> Floats:
@@ -138,6 +163,11 @@ def _blended(known: _Known, split: Indices, own: Floats, mean: Floats) -> Floats
     flat, round_ = own[:, split % known.columns.shape[1]], mean[:, known.columns.ravel()[split]]
     agree = np.clip(((flat * round_).sum(axis=0) - CREASED) / (SMOOTH - CREASED), 0.0, 1.0)
     return _unit(flat + agree * agree * (3 - 2 * agree) * (round_ - flat))
+
+
+def _dotted(a: Floats, b: Floats) -> Floats:
+    """(n,): of vectors that stand in columns."""
+    return np.asarray(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
