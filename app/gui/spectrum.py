@@ -72,10 +72,8 @@ class Spectrum(QWidget):
         self.slider.show_pull(
             Track(FAMILIES[rule.family].parameters[0], found.smooth(n), found.specials(n)), Fraction(way)
         )
-        beta = f", β {Fraction(way) * Fraction(3, 8 * n)}" if found.regular == 6 else ""
-        self.way.setText(
-            "Regular: always all the way." if n == found.regular else f"Pull <b>{way}</b> of the way{beta}"
-        )
+        beta = f", β = {Fraction(way) * Fraction(3, 8 * n)}" if found.regular == 6 else ""
+        self.way.setText("Regular: always all the way." if n == found.regular else f"Pull = <b>{way}</b>{beta}")
 
     def _pull(self, way: Fraction) -> None:
         self._wish(bench.pull, way)
