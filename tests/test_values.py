@@ -83,6 +83,7 @@ def test_a_curve_wears_the_influence_on_its_points_and_strokes():
     wanted = ramps.coloured(column, (0.0, column.max()), THEMES["light"], is_signed=False)
     assert max(np.abs(np.array(shown[k]) - wanted[k]).max() for k in shown) < 1 / 64
     assert len({each.colour for each in made.lines}) > 4
+    assert [entry.text for entry in compose(state).legend] == ["original"]
 
 
 @pytest.mark.parametrize("shape", ["polygon", "closed-polygon", "hook", "net", "three-direction-net", "quad-sheet"])

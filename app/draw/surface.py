@@ -37,7 +37,7 @@ BAND = 2.4
 """Width of a line of light in logical points."""
 
 SMALL = 0.45
-"""Size of markers on a surface whose curvature is shown, relative to what they are: it is told just where they are."""
+"""Size of markers on a surface that wears values, relative to what they are: values are told just where they are."""
 
 QUILL, QUILLS = 0.9, 1500
 """Length of a normal, relative to the typical edge; more than so many vertices have only some of theirs shown."""
@@ -148,8 +148,6 @@ def dressed(made: Scene, what: Shown, frame: Frame, state: State, view: View, th
         lines += [reflections(faces, made.camera, theme.ink, BAND * theme.stroke) for faces in made.faces]
     elif kind == "normals" and made.faces:
         lines.append(_quills(frame, theme))
-    elif kind in CURVATURES:
-        made = replace(made, markers=tuple(_shrunk(each) for each in made.markers))
     is_wanting = bool(kind) and not frame.topology.n_faces
     remark = what.remark or ("A curve has no surface to show this on." if is_wanting else "")
     return replace(made, lines=(*made.lines, *lines), remark=remark)
@@ -177,7 +175,8 @@ def painted(
 def _coloured(scene: Scene, colours: Floats, n_vertices: int) -> Scene:
     """A surface by its vertices; where there is none, a curve by its strokes and its points."""
     if scene.faces:
-        return replace(scene, faces=tuple(_worn(each, colours) for each in scene.faces))
+        faces = tuple(_worn(each, colours) for each in scene.faces)
+        return replace(scene, faces=faces, markers=tuple(_shrunk(each) for each in scene.markers))
     lines = [part for each in scene.lines for part in _binned(each, colours, is_curve=len(each.points) == n_vertices)]
     markers = [part for each in scene.markers for part in _dotted(each, colours)]
     return replace(scene, lines=tuple(lines), markers=tuple(markers))
@@ -201,7 +200,7 @@ def _dotted(markers: Markers, colours: Floats) -> list[Markers]:
         return [markers]
     return [
         replace(markers, points=markers.points[rows], radius=markers.radius[rows], opacity=markers.opacity[rows],
-                ids=markers.ids[rows], colour=colour)
+                ids=markers.ids[rows], colour=colour, name="")
         for rows, colour in _groups(colours[markers.ids])
     ]  # fmt: skip
 
@@ -218,7 +217,8 @@ def _groups(colours: Floats) -> list[tuple[Indices, Colour]]:
 
 
 def _shrunk(markers: Markers) -> Markers:
-    return replace(markers, radius=SMALL * markers.radius) if markers.stage < 0 else markers
+    is_current = markers.stage < 0 and markers.name != limits.LIMIT_POINT and bool((markers.ids >= 0).any())
+    return replace(markers, radius=SMALL * markers.radius) if is_current else markers
 
 
 def _quills(frame: Frame, theme: Theme) -> Lines:
