@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
-from app.lab import LABORATORY, MOST_PANES, Lab, Rule, affordable, lab_of, lesson_of, natural_family
+from app.lab import COMFORT, LABORATORY, MOST_PANES, Lab, Rule, affordable, lab_of, lesson_of, natural_family
 from app.state import State, at_stop, choose, settle, stop_level, stops, valence_of
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, TopologyError, shapes
@@ -37,8 +37,8 @@ def replace_control(state: State, control: Mesh, name: str) -> State:
     """Another control object, under those of the rules that take it."""
     lab = lab_in(state)
     kept = tuple(rule for rule in lab.rules if rule.scheme.accepts(control.topology))
-    rules = kept or (Rule(natural_family(control)),)
-    return put(state, Lab(name, control, rules, max(lab.levels, 1)))
+    found = Lab(name, control, kept or (Rule(natural_family(control)),), max(lab.levels, 1))
+    return put(state, replace(found, levels=min(found.levels, max(affordable(found, COMFORT), 1))))
 
 
 def choose_family(state: State, pane: int, family: str) -> State:

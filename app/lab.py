@@ -19,8 +19,11 @@ LEVELS = 2
 MOST_LEVELS = 8
 MOST_PANES = 4
 
-BUDGET = 20_000
-"""Faces, or points of a polygon, after the last level; beyond it every picture of playing would take too long."""
+BUDGET = 130_000
+"""Faces, or points of a polygon, after the last level; beyond it every picture would take too long."""
+
+COMFORT = 20_000
+"""... and what is played well: as many a new control object is given, unless more are asked for."""
 
 SENTENCES = {
     "topology": "New topology: a point on every edge, {and_faces}smaller faces between them. Nothing moves.",
@@ -115,7 +118,7 @@ def lab_of(mesh: Mesh, name: str) -> Lab:
     """
     lab = Lab(name, mesh, (Rule(natural_family(mesh)),), LEVELS)
     lab.rules[0].scheme.require(mesh.topology)
-    return replace(lab, levels=min(LEVELS, affordable(lab)))
+    return replace(lab, levels=min(LEVELS, affordable(lab, COMFORT)))
 
 
 def natural_family(mesh: Mesh) -> str:
@@ -129,9 +132,9 @@ def natural_family(mesh: Mesh) -> str:
     return {(3,): "triangle-centroid", (4,): "quad-centroid"}.get(tuple(sizes), "catmull-clark")
 
 
-def affordable(lab: Lab) -> int:
-    """How many levels stay within the budget under every rule; at most ``MOST_LEVELS``."""
-    return min(_affordable(lab.control, rule) for rule in lab.rules)
+def affordable(lab: Lab, budget: int = BUDGET) -> int:
+    """How many levels stay within a budget of faces under every rule; at most ``MOST_LEVELS``."""
+    return min(_affordable(lab.control, rule, budget) for rule in lab.rules)
 
 
 def lesson_of(lab: Lab) -> Lesson:
@@ -163,9 +166,9 @@ def _told(control: Mesh, rule: Rule, levels: int) -> Trace:
     return found
 
 
-def _affordable(mesh: Mesh, rule: Rule) -> int:
+def _affordable(mesh: Mesh, rule: Rule, budget: int) -> int:
     for level in range(1, MOST_LEVELS + 1):
-        if _size(mesh, rule, level) > BUDGET:
+        if _size(mesh, rule, level) > budget:
             return level - 1
     return MOST_LEVELS
 

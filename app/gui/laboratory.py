@@ -8,16 +8,21 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from app import bench
+from app.gui.banner import Banner
 from app.gui.choice import Choice
 from app.gui.look import GRID
 from app.gui.parts import Section, emptied
 from app.gui.session import Session
 from app.gui.stepper import Stepper
 from app.gui.vectors import Vectors
+from app.gui.worker import Worker
 from app.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, titled
 from app.state import State
 from subdivision import Boundary, Topology, TopologyError, shapes
 from subdivision.catalogue import FAMILIES, Family, Parameter, Value, suiting
+
+LIGHT = 6_000
+"""Up to so many faces a change is worked out at once."""
 
 BOUNDARIES = tuple((b.value.replace("-", " ").capitalize(), b) for b in Boundary)
 
@@ -25,9 +30,11 @@ BOUNDARIES = tuple((b.value.replace("-", " ").capitalize(), b) for b in Boundary
 class Laboratory(QWidget):
     """Shown while the laboratory is open; a wish that a scheme refuses is answered with its sentence."""
 
-    def __init__(self, session: Session, say: Callable[[str], None]) -> None:
+    def __init__(self, session: Session, banner: Banner) -> None:
         super().__init__()
-        self._session, self._say = session, say
+        self._session = session
+        self.worker = Worker(session, self._refused, banner.wait, banner.done)
+        self._banner = banner
         self._about: tuple[object, ...] = ()
         self.panes: list[Pane] = []
         self.shape = Choice("Object", self._take)
@@ -46,13 +53,20 @@ class Laboratory(QWidget):
         column.addWidget(self.vectors)
 
     def wish(self, transition: Callable[..., State], *args: Any) -> None:
-        """Do it, or say why not; what is shown is then what is so."""
+        """Do it, or say why not; with a large object, where nobody waits for a picture."""
+        if _weight(self._session.state.lab) > LIGHT:
+            self.worker.do(transition, *args)
+            return
         try:
             self._session.do(transition, *args)
         except TopologyError as refusal:
-            self._say(str(refusal))
-            self._about = ()
-            self.show_state(self._session.state)
+            self._refused(str(refusal))
+
+    def _refused(self, sentence: str) -> None:
+        """Say why not; what is shown is then what is so."""
+        self._banner.say(sentence)
+        self._about = ()
+        self.show_state(self._session.state)
 
     def show_state(self, state: State) -> None:
         is_open = bench.is_open(state) and state.lab is not None
@@ -91,6 +105,11 @@ class Laboratory(QWidget):
     def _turn_levels(self, by: int) -> None:
         if self._session.state.lab is not None:
             self.wish(bench.set_levels, self._session.state.lab.levels + by)
+
+
+def _weight(lab: Lab | None) -> int:
+    """How many faces the laboratory has after its last level and one more, about."""
+    return lab.control.topology.n_vertices * 4 ** (lab.levels + 1) if lab is not None else 0
 
 
 class Pane(QWidget):

@@ -9,6 +9,7 @@ from app import bench
 from app.gui.parts import Head
 from app.lab import LABORATORY
 from app.state import choose, drag, last, level_of
+from subdivision import shapes
 
 pytestmark = pytest.mark.window
 
@@ -81,14 +82,16 @@ def test_every_choice_can_be_undone_and_the_panel_follows(window):
     assert panel.shape.box.currentText() == "Cube"
 
 
-def test_a_level_too_many_is_not_offered_and_a_refusal_is_a_sentence(window):
+def test_a_level_too_many_is_not_offered_and_a_refusal_is_a_sentence(window, qtbot):
     panel = open_by_keyboard(window)
     window.session.do(bench.take, "duck")
     for _ in range(10):
         panel.levels.more.click()
+        qtbot.waitUntil(lambda: not panel.worker.is_busy, timeout=20000)
     assert not panel.levels.more.isEnabled()
     before = window.session.state.lab
     panel.wish(bench.choose_family, 0, "loop")
+    qtbot.waitUntil(lambda: not panel.worker.is_busy, timeout=20000)
     assert window.session.state.lab is before
     assert window.banner.isVisible()
     assert "triangle" in window.banner.words.text()
@@ -113,3 +116,33 @@ def test_a_section_of_the_panel_folds_away_and_comes_back(window):
     head.setFocus()
     QTest.keyClick(head, Qt.Key.Key_Space)
     assert window.laboratory.levels.isVisible()
+
+
+def test_a_large_object_is_worked_out_elsewhere_and_dragging_it_at_level_three_keeps_the_engines_points(window, qtbot):
+    window.session.do(lambda s: bench.replace_control(bench.enter(s), shapes.torus(50, 40), "ring"))
+    panel = window.laboratory
+    for level in (2, 3):
+        panel.levels.more.click()
+        assert panel.worker.is_busy
+        qtbot.waitUntil(lambda: not panel.worker.is_busy, timeout=20000)
+        assert window.session.state.lab.levels == level
+    window.session.do(last)
+    window.session.do(drag, 5, (1.5, 0.4, 0.6))
+    trace = window.session.state.trace(window.session.state.now.lead)
+    assert trace.topology_at(len(trace.stages)).n_faces == 128_000
+    afresh = trace.with_control(trace.control)
+    assert np.abs(trace.points[-1] - afresh.points[-1]).max() < 1e-12
+
+
+def test_a_change_worked_out_elsewhere_is_forgotten_when_a_newer_one_is_wished(window, qtbot):
+    window.session.do(lambda s: bench.replace_control(bench.enter(s), shapes.torus(50, 40), "ring"))
+    panel = window.laboratory
+    panel.wish(bench.choose_family, 0, "loop")  # refused, in the end
+    panel.wish(bench.choose_family, 0, "catmull-clark")
+    qtbot.waitUntil(lambda: not panel.worker.is_busy, timeout=20000)
+    assert window.session.state.lab.rules[0].family == "catmull-clark"
+    assert not window.banner.isVisible()
+    panel.wish(bench.choose_family, 0, "loop")
+    qtbot.waitUntil(lambda: not panel.worker.is_busy, timeout=20000)
+    assert window.session.state.lab.rules[0].family == "catmull-clark"
+    assert "triangle" in window.banner.words.text()

@@ -9,7 +9,7 @@ import pytest
 
 from app.draw.picture import Camera
 from app.draw.turned import turned
-from app.lab import BUDGET, Lab, Rule, affordable, lab_of, lesson_of
+from app.lab import COMFORT, Lab, Rule, affordable, lab_of, lesson_of
 from app.turn import REST
 from subdivision import Grid, Mesh, shapes
 from subdivision.schemes import QUAD_CENTROID, TRIANGLE_CENTROID
@@ -42,10 +42,10 @@ def test_a_mesh_gets_the_scheme_that_suits_its_faces(mesh, scheme):
 
 def test_a_mesh_beyond_the_budget_is_played_for_fewer_levels_and_says_so():
     for levels, (n, m) in {2: (25, 50), 1: (50, 100), 0: (100, 200)}.items():
-        assert n * m == BUDGET // 4**levels
+        assert n * m == COMFORT // 4**levels
         sheet = Grid(n + 1, m + 1).mesh()
         lab = Lab("sheet", Mesh(sheet, np.zeros((sheet.n_vertices, 3))), (Rule("quad-centroid"),))
-        assert affordable(lab) == levels
+        assert affordable(lab, COMFORT) == levels
         if not levels:
             assert "too many faces" in lesson_of(lab_of(lab.control, "sheet")).beats[0].text
 
