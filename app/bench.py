@@ -145,10 +145,10 @@ def put(state: State, lab: Lab, *, stays: bool = False) -> State:
 
 
 def same_place(state: State, there: Lesson) -> int:
-    """The stop of the new story that is as far as the state was: the same stage, else the same level."""
+    """The stop of the new story that is as far as the state was: the first, the same stage, else the same level."""
     old, new = stops(state.lesson), stops(there)
     here = next(k for k, s in enumerate(old) if (s.beat, s.at) >= (state.beat, state.at))
-    if len(old) == len(new):
+    if here == 0 or len(old) == len(new):
         return here
     level = stop_level(state.lesson, old[here])
     return max(k for k, s in enumerate(new) if stop_level(there, s) <= level)

@@ -45,7 +45,8 @@ def remove_points(polygon: Mesh, points: Iterable[int]) -> Mesh:
     if left < least:
         kind, mend = ("a closed", "open it first, or keep one") if t.closed else ("an open", "keep one")
         raise TopologyError(
-            f"without point {gone[-1]} {left} would be left, and {kind} polygon needs {least}; {mend}", vertices=gone
+            f"without point {gone[-1]} only {left} would be left, and {kind} polygon needs {least}; {mend}",
+            vertices=gone,
         )
     return Mesh(replace(t, n_vertices=left), np.delete(polygon.points, gone, axis=0))
 

@@ -14,7 +14,7 @@ from subdivision.arrays import Mask
 PICKED = "picked"
 """The name of its markers."""
 
-WIDTH = 9.0
+WIDTH = 11.0
 """Of a picked edge, in logical points."""
 
 TINT, VEIL = 0.5, 0.45

@@ -67,11 +67,9 @@ class Editing(QWidget):
         self.valence = Stepper("valence", lambda by: self.wish(editing.turn_fan, by, 0))
         self.rings = Stepper("rings", lambda by: self.wish(editing.turn_fan, 0, by))
         grid = QWidget()
-        cells = QGridLayout(grid)
-        cells.setContentsMargins(0, GRID // 2, 0, GRID // 2)
-        cells.setSpacing(GRID // 2)
-        for k, button in enumerate(self.buttons.values()):
-            cells.addWidget(button, k // 2, k % 2)
+        self._cells = QGridLayout(grid)
+        self._cells.setContentsMargins(0, GRID // 2, 0, GRID // 2)
+        self._cells.setSpacing(GRID // 2)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         numbers = (self.n_s, self.n_t, self.wrap_s, self.wrap_t, self.closed, self.valence, self.rings)
@@ -122,6 +120,9 @@ class Editing(QWidget):
             "fill": kind == "edge",
             "flip": kind == "edge",
         }
+        shown = [name for name in self.buttons if offered[name]]
+        for k, name in enumerate(shown):
+            self._cells.addWidget(self.buttons[name], k // 2, k % 2)
         for name, button in self.buttons.items():
             button.setVisible(offered[name])
             button.setEnabled(usable.get(name, True))
@@ -188,7 +189,12 @@ class Sharpness(QWidget):
 
 
 class _Slider(QSlider):
-    own_keys = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
+    """Keeps the keys that move it."""
+
+    own_keys = (
+        *(Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down),
+        *(Qt.Key.Key_Home, Qt.Key.Key_End),
+    )
 
 
 def hint(state: State) -> str:
