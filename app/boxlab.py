@@ -27,6 +27,9 @@ MOST_VECTORS, LONGEST = 24, 9
 
 BASIS, BASIS_LEVELS = "Basis net", 4
 
+QUICK = 20_000
+"""Up to so many faces after the last level a change keeps up with the hand; a basis net has no more."""
+
 SMALLEST = 5
 """Points a side of a basis net at least, so that other schemes take it too."""
 
@@ -52,6 +55,12 @@ def numbered(rule: Rule) -> Vectors:
 def preset_of(vectors: Vectors) -> str:
     """The name of a vector set; empty where it has none."""
     return next((name for name, known in PRESETS.items() if Counter(known) == Counter(vectors)), "")
+
+
+def is_quick(state: State) -> bool:
+    """Whether a change of the vectors keeps up with the hand."""
+    lab = lab_in(state)
+    return lab.levels <= affordable(lab, QUICK)
 
 
 def add_vector(state: State, vector: Vector) -> State:
@@ -142,6 +151,8 @@ def _become(state: State, vectors: Vectors, telling: str | None = None) -> State
     if not other_orders(rule.passes):
         other = replace(other, overlay=0)
     if lab.name == BASIS:
+        held = affordable(lab, QUICK) <= lab.levels < BASIS_LEVELS  # by vectors that were longer
+        other = replace(other, levels=BASIS_LEVELS) if held else other
         return _at_same_place(state, put(state, _resized(other, vectors)))
     try:
         return put(state, other)
@@ -162,11 +173,14 @@ def _resized(lab: Lab, vectors: Vectors) -> Lab:
     control = basis_net(vectors)
     rules = tuple(rule for rule in lab.rules if rule.scheme.accepts(rule.bounded(control).topology))
     found = replace(lab, name=BASIS, control=control, rules=rules)
-    if affordable(found) < 1:
+    if (most := affordable(found, QUICK)) < 1:
         raise TopologyError("the basis function of these vectors needs a net too large to play; take shorter ones")
-    return found
+    return replace(found, levels=min(found.levels, most))
 
 
 def _at_same_place(before: State, after: State) -> State:
-    """The new story where the old one stood, on another control object."""
-    return at_stop(after, stops(after.lesson)[same_place(settle(before), after.lesson)])
+    """The new story where the old one stood, on another control object; the end stays the end."""
+    before = settle(before)
+    old, new = stops(before.lesson), stops(after.lesson)
+    is_end = (before.beat, before.at) == (old[-1].beat, old[-1].at)
+    return at_stop(after, new[-1] if is_end else new[same_place(before, after.lesson)])

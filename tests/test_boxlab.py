@@ -16,7 +16,6 @@ from app.draw.layout import overlay
 from app.draw.picture import Diagram
 from app.draw.primitives import Stroke
 from app.draw.theme import THEMES
-from app.lab import BUDGET
 from subdivision import TopologyError
 from subdivision.continuity import mask, placement
 from subdivision.schemes import ZWART_POWELL, box_spline
@@ -193,7 +192,18 @@ def test_the_basis_keeps_its_place_in_the_story_while_its_vectors_change():
     state = st.last(BASIS)
     for name in ("Bilinear", "Zwart-Powell", "Bicubic"):
         state = boxlab.preset(state, name)
-        assert st.level_of(state) == state.lab.levels
+        assert st.level_of(state) == state.lab.levels == boxlab.BASIS_LEVELS
+    at_two = st.turn_level(st.turn_level(state, -1), -1)
+    assert st.level_of(boxlab.preset(at_two, "Bilinear")) == 2
+
+
+def test_long_vectors_cost_levels_only_while_they_are_there():
+    long = boxlab.add_vector(st.last(BASIS), (5, 3))
+    assert st.level_of(long) == long.lab.levels < boxlab.BASIS_LEVELS
+    short = boxlab.move_vector(long, 4, (0, 0))
+    assert st.level_of(short) == short.lab.levels == boxlab.BASIS_LEVELS
+    chosen = bench.set_levels(BASIS, 1)
+    assert boxlab.add_vector(chosen, (1, 0)).lab.levels == 1
 
 
 def test_a_net_too_large_to_play_is_refused():
@@ -202,7 +212,7 @@ def test_a_net_too_large_to_play_is_refused():
         state = boxlab.add_vector(state, (9, 9))
     with pytest.raises(TopologyError, match="too large to play"):
         boxlab.add_vector(state, (9, 9))
-    assert affordable_faces(state) <= BUDGET
+    assert affordable_faces(state) <= boxlab.QUICK
 
 
 def affordable_faces(state):
@@ -212,9 +222,9 @@ def affordable_faces(state):
 def test_faces_are_counted_as_the_steps_leave_them():
     for name in boxlab.PRESETS:
         state = boxlab.preset(BASIS, name)
-        assert affordable_faces(state) <= BUDGET
+        assert affordable_faces(state) <= boxlab.QUICK
         more = box_spline(state.vectors).step(state.now.lead.trace.stages[-1].topology).topology.n_faces
-        assert state.lab.levels == boxlab.BASIS_LEVELS or more > BUDGET
+        assert state.lab.levels == boxlab.BASIS_LEVELS or more > boxlab.QUICK
 
 
 def test_sessions_and_links_keep_vectors_order_and_overlay():

@@ -14,7 +14,7 @@ from app.draw.theme import THEMES
 from app.gui.look import GRID, colour, line_of, mixed, type_face
 from app.gui.session import Session
 from app.state import State
-from subdivision import Role, TopologyError
+from subdivision import Role
 from subdivision.catalogue import Vectors
 from subdivision.passes import Vector
 
@@ -42,9 +42,10 @@ class Lattice(QWidget):
 
     own_keys = frozenset((*WAYS, *ADDING, *REMOVING))
 
-    def __init__(self, session: Session, wish: Callable[..., None]) -> None:
+    def __init__(self, session: Session, wish: Callable[..., None], can: Callable[..., bool]) -> None:
+        """``wish`` does a change or says why not; ``can`` does it at once, or not."""
         super().__init__()
-        self._session, self._wish = session, wish
+        self._session, self._wish, self._can = session, wish, can
         self._vectors: Vectors = ()
         self._theme = ""
         self._reach = LEAST
@@ -157,14 +158,6 @@ class Lattice(QWidget):
     def leaveEvent(self, event: Any) -> None:
         self._under = None
         self.update()
-
-    def _can(self, transition: Callable[..., State], *args: Any) -> bool:
-        """Do it if it is not refused; while the hand holds on nothing is said."""
-        try:
-            self._session.do(transition, *args)
-        except TopologyError:
-            return False
-        return True
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         key = Qt.Key(event.key())

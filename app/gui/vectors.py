@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from typing import Any
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont
@@ -17,6 +18,7 @@ from app.gui.passes import Passes
 from app.gui.session import Session
 from app.gui.shown import Switch
 from app.state import State, toggle
+from subdivision import TopologyError
 from subdivision.catalogue import Vectors as VectorSet
 from subdivision.continuity import alpha, degree, promise, smoothness
 
@@ -32,19 +34,19 @@ class Vectors(QWidget):
         self._session, self._wish = session, wish
         self._about: VectorSet = ()
         self.preset = Choice("Vector set", self._choose)
-        self.lattice = Lattice(session, wish)
+        self.lattice = Lattice(session, self.do, self.can)
         self.repeat = _button("Repeat", "The vector in the ring once more (Enter)")
         self.repeat.clicked.connect(self.lattice.repeat)
         self.remove = _button("Remove", "The vector in the ring once less (Delete)")
         self.remove.clicked.connect(self.lattice.remove)
         self.facts, self.promise = (QLabel(wordWrap=wraps, textFormat=RICH) for wraps in (False, True))
         self.table = MaskTable(session)
-        self.passes = Passes(session, wish)
+        self.passes = Passes(session, self.do)
         self.basis = _button("Basis function", "A flat net with one point lifted by 1, as large as the vectors need")
-        self.basis.clicked.connect(lambda: wish(boxlab.basis))
+        self.basis.clicked.connect(lambda: self.do(boxlab.basis))
         self.overlay = _button("Overlay another order", "The same passes in another order, beside it and laid over it")
         self.overlay.setCheckable(True)
-        self.overlay.clicked.connect(lambda is_on: wish(boxlab.overlay, int(is_on)))
+        self.overlay.clicked.connect(lambda is_on: self.do(boxlab.overlay, int(is_on)))
         self.next = _button("Yet another order", "The next order of the same passes")
         self.next.clicked.connect(self._turn_order)
         self.picture = Switch("On the picture", "D", session)
@@ -67,6 +69,21 @@ class Vectors(QWidget):
         outside = QVBoxLayout(self)
         outside.setContentsMargins(0, 0, 0, 0)
         outside.addWidget(Section("Box spline", inside))
+
+    def do(self, transition: Callable[..., State], *args: Any) -> None:
+        """At once where that is quick; else, and where it is refused, as the laboratory does it, which says why."""
+        if not self.can(transition, *args):
+            self._wish(transition, *args)
+
+    def can(self, transition: Callable[..., State], *args: Any) -> bool:
+        """Do it if it is quick and not refused; nothing is said."""
+        if not boxlab.is_quick(self._session.state):
+            return False
+        try:
+            self._session.do(transition, *args)
+        except TopologyError:
+            return False
+        return True
 
     def show_state(self, state: State) -> None:
         vectors = state.vectors
@@ -94,11 +111,11 @@ class Vectors(QWidget):
 
     def _choose(self, name: str) -> None:
         if name:
-            self._wish(boxlab.preset, name)
+            self.do(boxlab.preset, name)
 
     def _turn_order(self) -> None:
         if self._session.state.lab is not None:
-            self._wish(boxlab.overlay, self._session.state.lab.overlay + 1)
+            self.do(boxlab.overlay, self._session.state.lab.overlay + 1)
 
 
 def _button(name: str, tip: str) -> QPushButton:
