@@ -136,6 +136,52 @@ def draw_figures(options: argparse.Namespace) -> None:
     print(f"{written} files in {perf_counter() - begin:.1f} s", file=sys.stderr)
 
 
+def export_files(options: argparse.Namespace) -> None:
+    """Write the view, the lesson or everything in one of the formats to take away."""
+    from app import export
+
+    state, out = _to_export(options), options.output
+    suffixes = {kind.suffix: name for name, kind in [*export.FORMATS.items()][::-1]}
+    of = options.of or ("view" if options.step else "lesson" if options.what else "everything")
+    try:
+        if (chosen := options.format or suffixes.get(out.suffix.lower(), "")) == "":
+            raise Fault(f"{out} does not say in which format: end it in one of {' '.join(suffixes)}, or add --format")
+        wish = export.Wish(
+            chosen, of, options.size, options.background, options.pace, options.level, options.limit
+        )  # fmt: skip
+        if options.progress:
+            from app.export.worker import reported
+
+            written = reported(state, wish, out)
+        else:
+            written = export.export(state, wish, out)
+    except export.ExportError as fault:
+        raise Fault(str(fault)) from fault
+    for path in written:
+        print(path)
+
+
+def _to_export(options: argparse.Namespace) -> State:
+    """The state that is meant: of a session, a link or a mesh as it was, else a lesson at its step or its end."""
+    from app.opening import meant
+    from app.state import Options, choose, last, open_lesson, start
+    from app.strict import KeepingError
+
+    looks = Options(theme=options.theme or "light", as_caption=options.as_caption)
+    try:
+        found = meant(options.what or "")
+    except KeepingError as fault:
+        raise Fault(str(fault)) from fault
+    if found is not None:
+        if options.set or options.step:
+            raise Fault("--set and --step go with a lesson; a link or a file has a place of its own: leave them out")
+        state = found[0](start(lessons.all_lessons()[0], looks))
+        return choose(state, as_caption=True) if options.as_caption else state
+    named = _lesson(options.what) if options.what else lessons.all_lessons()[0]
+    state = start(_turned([named], dict(options.set))[0], looks)
+    return open_lesson(state, state.lesson, options.step - 1) if options.step else last(state)
+
+
 def subdivide_file(options: argparse.Namespace) -> None:
     """Read a mesh, subdivide it, write it."""
     mesh = files.read(options.input)
@@ -237,6 +283,33 @@ def _for_figures(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=draw_figures)
 
 
+def _for_export(parser: argparse.ArgumentParser) -> None:
+    from app.export.wish import FASTEST, FORMATS, SCOPES, SLOWEST
+
+    listed = "; ".join(f"{name}: {kind.title}" for name, kind in FORMATS.items())
+    parser.add_argument(
+        "what", nargs="?", metavar="WHAT", help="a lesson, a session, a link or a mesh; none: the whole lecture"
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="OUT",
+        help="the file, whose suffix says the format; or, where there are several, their folder",
+    )  # fmt: skip
+    parser.add_argument("--format", choices=list(FORMATS), default="", metavar="F", help=listed)
+    parser.add_argument("--of", choices=SCOPES, default="", help="view: only what is shown; lesson; everything")
+    parser.add_argument("--step", type=_counting, metavar="N", help="only the lesson's N-th step, from 1")
+    parser.add_argument("--size", type=_size, default=(1920, 1080), metavar="WxH", help="in pixels (1920x1080)")
+    parser.add_argument("--background", choices=BACKGROUNDS, default="theme", help="the theme's own, if not named")
+    parser.add_argument(
+        "--pace", type=float, default=1.0, metavar="X",
+        help=f"of a film: 2 is twice as fast ({SLOWEST:g} to {FASTEST:g})",
+    )  # fmt: skip
+    parser.add_argument("--level", type=_whole, metavar="N", help="of a view's mesh: not the one shown, but level N")
+    parser.add_argument("--limit", action="store_true", help="push a mesh's vertices to the limit surface")
+    parser.add_argument("--progress", action="store_true", help=argparse.SUPPRESS)
+    _looks(parser)
+    parser.set_defaults(run=export_files)
+
+
 def _looks(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--theme", choices=list(THEMES), default="")
     parser.add_argument("--as-caption", action="store_true", help="colours as in the lecture's own captions")
@@ -248,7 +321,9 @@ def _looks(parser: argparse.ArgumentParser) -> None:
 
 def _for_subdivide(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("input", type=Path, metavar="IN", help="an OBJ, OFF, PLY or STL file")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT", help="an OBJ or PLY file")
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="OUT", help="an OBJ, PLY, STL or glTF (.glb) file"
+    )
     parser.add_argument("--scheme", choices=list(NAMES), required=True)
     parser.add_argument("--levels", type=_whole, required=True, metavar="N")
     parser.add_argument("--boundary", choices=[b.value for b in Boundary], default=Boundary.EDGE.value)
@@ -273,6 +348,7 @@ def _for_mask(parser: argparse.ArgumentParser) -> None:
 COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
     "lessons": (_for_lessons, "list the lessons"),
     "figures": (_for_figures, "render lessons to pictures; needs no screen"),
+    "export": (_for_export, "take away pictures, films, slides, a handout, meshes; needs no screen"),
     "subdivide": (_for_subdivide, "subdivide a mesh file"),
     "stencil": (_for_stencil, "print exact weights at a valence"),
     "mask": (_for_mask, "print a box spline's mask, degree and continuity"),

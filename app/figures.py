@@ -5,8 +5,8 @@ from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
-from app.draw.compose import compose
 from app.draw.picture import Picture
+from app.draw.seen import seen
 from app.draw.theme import THEMES
 from app.state import Options, State, Stop, at_stop, start, stops
 from lessons.script import Lesson
@@ -110,7 +110,7 @@ def png(state: State, size: tuple[int, int], background: str = "theme") -> bytes
 
     from app.draw.raster import image
 
-    pixels = image(_on(compose(state), background), *size, transparent=background == "transparent")
+    pixels = image(stood_on(seen(state), background), *size, transparent=background == "transparent")
     picture = Image.fromarray(pixels)
     out = BytesIO()
     (picture if background == "transparent" else picture.convert("RGB")).save(out, "PNG")
@@ -121,7 +121,7 @@ def svg(state: State, size: tuple[int, int], background: str = "theme") -> bytes
     """The picture of a state as the bytes of an SVG file."""
     from app.draw.vector import svg
 
-    return svg(_on(compose(state), background), *size, transparent=background == "transparent").encode()
+    return svg(stood_on(seen(state), background), *size, transparent=background == "transparent").encode()
 
 
 Progress = Callable[[float], None]
@@ -145,14 +145,18 @@ def _still(state: State, paint: Callable[[State, tuple[int, int], str], bytes]) 
 
 
 def _played(state: State) -> Paint:
-    from app.draw.film import gif
+    from app.draw.film import gif, shots
 
     return lambda size, background, progress: gif(
-        state, *size, look=lambda p: _on(p, background), transparent=background == "transparent", progress=progress
+        list(shots(state)),
+        *size,
+        look=lambda p: stood_on(p, background),
+        transparent=background == "transparent",
+        progress=progress,
     )
 
 
-def _on(picture: Picture, background: str) -> Picture:
+def stood_on(picture: Picture, background: str) -> Picture:
     """The picture on white or black instead of its theme's background."""
     colour = PLAIN.get(background)
     return replace(picture, background=colour) if colour else picture

@@ -516,8 +516,8 @@ def test_what_cannot_be_saved_is_told(tmp_path):
     (tmp_path / "folder.obj").mkdir()
     wild = Mesh(pyramid().topology, np.where(POINTS == 9, np.nan, POINTS))
     for name, mesh, said in [
-        ("a.off", pyramid(), "files ending in '.off' are not written; use one of .obj, .ply"),
-        ("a", pyramid(), "the name has no suffix; use one of .obj, .ply"),
+        ("a.off", pyramid(), "files ending in '.off' are not written; use one of .obj, .ply, .stl, .glb"),
+        ("a", pyramid(), "the name has no suffix; use one of .obj, .ply, .stl, .glb"),
         ("folder.obj", pyramid(), "it is a folder"),
         ("missing/a.obj", pyramid(), "there is no folder"),
         ("a.obj", Mesh(Polyline(3), np.eye(3)), "the control object has no faces; save a mesh"),

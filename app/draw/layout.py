@@ -28,6 +28,7 @@ __all__ = [
     "overlay",
     "pane_areas",
     "part_at",
+    "spoken",
 ]
 
 
@@ -130,6 +131,13 @@ def _words(picture: Picture, width: float, height: float, words: bool) -> _Words
         foot, bottom = _caption(picture, width, height)
     legend, bottom = _legend(picture, width, bottom, unit)
     return _Words((*head, *legend, *foot), top, bottom)
+
+
+def spoken(picture: Picture, width: float, height: float) -> tuple[tuple[Primitive, ...], float, float]:
+    """Title, counts, caption and formula alone, and from where to where the rest of the picture reaches down."""
+    head, top = _head(picture, width, height / 1000)
+    foot, bottom = _caption(picture, width, height)
+    return (*head, *foot), top, bottom
 
 
 def _head(picture: Picture, width: float, unit: float) -> tuple[list[Primitive], float]:

@@ -6,19 +6,21 @@ It needs no display: without one VTK is asked for EGL before it makes its first 
 
 import os
 import sys
+from collections.abc import Iterable
 from functools import cache
+from math import ceil
 from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.path import Path as Outline
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, Bbox
 from numpy.typing import NDArray
 
 from app.draw.flat import FLAT, Disc, Part, Polygon
 from app.draw.layout import fitted, overlay, pane_areas
 from app.draw.picture import Colour, Picture, Scene
-from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import ANCHOR, RIM, Area, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, path
 from subdivision.arrays import Floats
 
@@ -40,10 +42,20 @@ def image(picture: Picture, width: int, height: int, *, transparent: bool = Fals
             size = int(w), int(h)
             seen = _studio().picture(pane.content, picture.background, size, height, transparent=transparent)
             pixels[int(y) : int(y + h), int(x) : int(x + w)] = seen
-    brush = _Brush(canvas, height)
+    brush = Brush(canvas, Affine2D().scale(1, -1).translate(0, height))
     for each in overlay(picture, width, height, words=words):
         brush.paint(each)
     return pixels.copy()
+
+
+def painted(flat: Iterable[Primitive], area: Area, scale: float) -> Pixels:
+    """Flat things alone on nothing: what of them is in an area, so many times as fine."""
+    x, y, w, h = area
+    canvas = _AGG(ceil(w * scale), ceil(h * scale), 72)
+    brush = Brush(canvas, Affine2D().translate(-x, -y).scale(scale, -scale).translate(0, canvas.height))
+    for each in flat:
+        brush.paint(each)
+    return np.array(canvas.buffer_rgba())
 
 
 class _Studio:
@@ -121,54 +133,58 @@ def _unmultiplied(pixels: Pixels) -> Pixels:
     return np.asarray(np.concatenate([np.minimum(np.round(bright), 255), alpha], axis=2), dtype=np.uint8)
 
 
-class _Brush:
-    """Paints flat things; its y goes down, Agg's up."""
+class Brush:
+    """Paints flat things with a renderer of matplotlib's; ``onto`` leads from our places, y downwards, to its own."""
 
-    def __init__(self, canvas: Any, height: float) -> None:
-        self._canvas, self._height = canvas, height
+    clip: Bbox | None = None
+    """What is outside this, in the renderer's places, is not painted."""
+
+    def __init__(self, canvas: Any, onto: Affine2D) -> None:
+        self.canvas, self.onto = canvas, onto
+        self.scale = float(onto.get_matrix()[0, 0])
 
     def paint(self, each: Primitive) -> None:
         match each:
             case Text():
-                self._text(each)
+                self.text(each)
             case Plate():
                 shape = _rounded(each.x, each.y, each.width, each.height, each.radius)
-                self._draw(shape, each.fill, each.stroke, each.line, each.opacity)
+                self.draw(shape, each.fill, each.stroke, each.line, each.opacity)
             case Stroke():
                 line = Outline([(each.x0, each.y0), (each.x1, each.y1)])
-                self._draw(line, None, each.colour, each.width, each.opacity, dashed=each.dashed)
+                self.draw(line, None, each.colour, each.width, each.opacity, dashed=each.dashed)
             case Mark():
-                self._mark(each)
+                self.mark(each)
 
-    def _text(self, text: Text) -> None:
+    def text(self, text: Text) -> None:
         shift = ANCHOR[text.align] * measure(text.text, text.size, text.bold)[0]
         glyphs = path(text.text, text.size, text.bold)
         placed = glyphs.transformed(Affine2D().scale(1, -1).translate(text.x - shift, text.y))
         if text.halo is not None:
-            self._draw(placed, None, text.halo, RIM * text.size, text.opacity)
-        self._draw(placed, text.colour, None, 0.0, text.opacity)
+            self.draw(placed, None, text.halo, RIM * text.size, text.opacity)
+        self.draw(placed, text.colour, None, 0.0, text.opacity)
 
-    def _mark(self, mark: Mark) -> None:
+    def mark(self, mark: Mark) -> None:
         for part in FLAT[mark.shape]:
             width = 0.0 if isinstance(part, Disc) else part.width
             fill, stroke = (None, mark.colour) if width else (mark.colour, None)
-            self._draw(_placed(part, mark), fill, stroke, width * mark.size, mark.opacity)
+            self.draw(_placed(part, mark), fill, stroke, width * mark.size, mark.opacity)
 
-    def _draw(
+    def draw(
         self, shape: Outline, fill: Colour | None, stroke: Colour | None, width: float, opacity: float,
-        *, dashed: bool = False,
+        *, dashed: bool = False, is_butt: bool = False,
     ) -> None:  # fmt: skip
-        gc = self._canvas.new_gc()
-        gc.set_linewidth(width if stroke is not None else 0.0)
+        gc = self.canvas.new_gc()
+        gc.set_linewidth(width * self.scale if stroke is not None else 0.0)
         gc.set_foreground((*(stroke or (0.0, 0.0, 0.0)), opacity), isRGBA=True)
         gc.set_joinstyle("round")
-        gc.set_capstyle("butt" if dashed else "round")
+        gc.set_capstyle("butt" if dashed or is_butt else "round")
         gc.set_antialiased(True)
         gc.set_snap(False)
+        gc.set_clip_rectangle(self.clip)
         if dashed:
-            gc.set_dashes(0, [4 * width, 3 * width])
-        flip = Affine2D().scale(1, -1).translate(0, self._height)
-        self._canvas.draw_path(gc, shape, flip, (*fill, opacity) if fill is not None else None)
+            gc.set_dashes(0, [4 * width * self.scale, 3 * width * self.scale])
+        self.canvas.draw_path(gc, shape, self.onto, (*fill, opacity) if fill is not None else None)
         gc.restore()
 
 

@@ -1,4 +1,4 @@
-"""Meshes in files: OBJ, OFF, PLY and STL are read, OBJ and PLY written; the suffix chooses.
+"""Meshes in files: OBJ, OFF, PLY and STL are read, OBJ, PLY, STL and binary glTF written; the suffix chooses.
 
 Vertices and faces keep their order, polygons stay polygons, and vertices without a face stay.
 Every fault is a ``FileError`` that names the line (the byte in binary files) and the mend.
@@ -11,7 +11,7 @@ from typing import TypeAlias, TypeVar
 
 import numpy as np
 
-from subdivision.files import obj, off, ply, stl
+from subdivision.files import gltf, obj, off, ply, stl
 from subdivision.files.content import Content, mesh_of
 from subdivision.files.faults import Fault, FileError, fault_of_system, printable
 from subdivision.files.saving import save
@@ -25,7 +25,9 @@ _Format = TypeVar("_Format")
 _READERS: Mapping[str, Callable[[bytes], Content]] = {
     ".obj": obj.read, ".off": off.read, ".ply": ply.read, ".stl": stl.read
 }  # fmt: skip
-_WRITERS: Mapping[str, Callable[[Mesh], Iterator[bytes]]] = {".obj": obj.written, ".ply": ply.written}
+_WRITERS: Mapping[str, Callable[[Mesh], Iterator[bytes]]] = {
+    ".obj": obj.written, ".ply": ply.written, ".stl": stl.written, ".glb": gltf.written
+}  # fmt: skip
 
 READABLE = tuple(_READERS)
 """Suffixes that ``read`` knows."""
@@ -56,7 +58,9 @@ def read(path: AnyPath) -> Mesh:
 
 
 def write(path: AnyPath, mesh: Mesh) -> None:
-    """Save a mesh or net at full precision, whole or not at all; only OBJ keeps creases and corners.
+    """Save a mesh or net, whole or not at all: OBJ and PLY at full precision, STL and glTF as triangles in single.
+
+    Only OBJ keeps creases and corners.
 
     Raises
     ------

@@ -1,4 +1,9 @@
-"""STL, text or binary: triangles without connectivity; corners at the same position become one vertex."""
+"""STL, text or binary: triangles without connectivity; corners at the same position become one vertex.
+
+It is written in binary: single precision is all the format has.
+"""
+
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -6,6 +11,8 @@ from subdivision.arrays import Floats, Indices
 from subdivision.files.content import Content
 from subdivision.files.faults import Fault, quoted
 from subdivision.files.text import BYTE_ORDER_MARK, Row, coordinates, require_finite, rows, text_lines
+from subdivision.files.triangles import normals, triangles
+from subdivision.trace import Mesh
 
 _HEADER, _TRIANGLE = 84, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _PASSED_OVER = (b"outer", b"endloop")
@@ -120,3 +127,12 @@ def _merged(corners: Floats, sizes: Indices, where: Indices, unit: str) -> Conte
     vertex[order] = rank[np.cumsum(opens) - 1]
     points = corners[np.sort(first)]
     return Content(points, sizes, vertex, where, unit, lambda v: "the corner ({:g}, {:g}, {:g})".format(*points[v]))
+
+
+def written(mesh: Mesh) -> Iterator[bytes]:
+    """The file in pieces: header, triangles."""
+    points, cut = triangles(mesh)
+    rows = np.zeros(len(cut), dtype=_TRIANGLE)
+    rows["normal"], rows["corners"] = normals(points, cut), points[cut]
+    yield b"Subdivision Studio".ljust(80, b"\0") + np.array([len(cut)], dtype="<u4").tobytes()
+    yield rows.tobytes()

@@ -1,0 +1,27 @@
+"""The picture of a state from where the hand has turned it: what is on the screen is what is taken away."""
+
+from dataclasses import replace
+
+from app.draw.compose import compose
+from app.draw.picture import Picture, Scene
+from app.draw.turned import turned
+from app.state import State
+from app.turn import REST, Turn
+
+
+def seen(state: State) -> Picture:
+    """The picture of a state as the hand has turned it."""
+    return from_there(compose(state), state.turn)
+
+
+def from_there(picture: Picture, turn: Turn) -> Picture:
+    """A picture whose scenes are seen from elsewhere."""
+    if turn == REST:
+        return picture
+    panes = (
+        replace(pane, content=replace(pane.content, camera=turned(pane.content.camera, turn)))
+        if isinstance(pane.content, Scene)
+        else pane
+        for pane in picture.panes
+    )
+    return replace(picture, panes=tuple(panes))

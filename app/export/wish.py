@@ -1,0 +1,113 @@
+"""What is wished for, as a value that is checked before any work is done."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+from app.figures import BACKGROUNDS, LEAST, MOST, UNREADABLE
+
+SCOPES = ("view", "lesson", "everything")
+
+SLOWEST, FASTEST = 0.1, 10.0
+"""Pace: 1 is a second for a stage."""
+
+MOST_LEVEL = 8
+
+
+class ExportError(ValueError):
+    """Why nothing was exported, in a sentence for the user."""
+
+
+@dataclass(frozen=True)
+class Format:
+    """A kind of file; ``each`` says what one file holds: a step, a lesson, a level of a mesh, or all there is.
+
+    ``wants`` are the choices that make a difference to it.
+    """
+
+    title: str
+    suffix: str
+    each: str
+    wants: tuple[str, ...]
+
+
+LOOKS = ("size", "background")
+
+FORMATS: Mapping[str, Format] = MappingProxyType({
+    "png": Format("PNG picture", ".png", "step", LOOKS),
+    "svg": Format("SVG picture", ".svg", "step", LOOKS),
+    "pdf": Format("PDF, a page a step", ".pdf", "all", LOOKS),
+    "handout": Format("PDF handout with notes", ".pdf", "all", ()),
+    "pptx": Format("PowerPoint deck", ".pptx", "all", LOOKS),
+    "mp4": Format("MP4 film", ".mp4", "lesson", (*LOOKS, "pace")),
+    "gif": Format("GIF film", ".gif", "lesson", (*LOOKS, "pace")),
+    "obj": Format("OBJ mesh", ".obj", "level", ("limit",)),
+    "ply": Format("PLY mesh", ".ply", "level", ("limit",)),
+    "stl": Format("STL mesh, triangles", ".stl", "level", ("limit",)),
+    "glb": Format("glTF mesh, binary", ".glb", "level", ("limit",)),
+})  # fmt: skip
+"""What can be taken away, by name."""
+
+OPAQUE = ("pptx", "mp4")
+"""Nothing shows through these."""
+
+
+@dataclass(frozen=True)
+class Wish:
+    """``format`` of what is ``of``: the view, the lesson or everything.
+
+    ``level`` is which level of a view's mesh, None the one it shows; ``limit`` pushes its vertices to the limit.
+    """
+
+    format: str
+    of: str = "lesson"
+    size: tuple[int, int] = (1920, 1080)
+    background: str = "theme"
+    pace: float = 1.0
+    level: int | None = None
+    limit: bool = False
+
+    @property
+    def kind(self) -> Format:
+        return FORMATS[self.format]
+
+    @property
+    def is_folder(self) -> bool:
+        """Whether there will be several files."""
+        return (self.of != "view" and self.kind.each in ("step", "level")) or (self.of, self.kind.each) == MANY_FILMS
+
+    def checked(self, theme: str) -> "Wish":
+        """The wish, if it can be fulfilled in a theme.
+
+        Raises
+        ------
+        ExportError
+        """
+        if self.format not in FORMATS:
+            raise ExportError(f"there is no format '{self.format}'; choose one of {', '.join(FORMATS)}")
+        if self.of not in SCOPES:
+            raise ExportError(f"'{self.of}' cannot be exported; choose one of {', '.join(SCOPES)}")
+        if not all(LEAST <= n <= MOST for n in self.size):
+            width, height = self.size
+            raise ExportError(f"a picture has {LEAST} to {MOST} pixels each way, not {width} x {height}")
+        if self.background not in BACKGROUNDS:
+            raise ExportError(f"the background is one of {', '.join(BACKGROUNDS)}, not {self.background}")
+        if self.background == "transparent" and self.format in OPAQUE:
+            raise ExportError(f"a {self.kind.title} cannot be transparent; choose another background")
+        if "background" in self.kind.wants and (words := UNREADABLE.get((theme, self.background))) is not None:
+            raise ExportError(f"the {theme} theme writes in {words}, which {self.background} hides; choose another")
+        if not SLOWEST <= self.pace <= FASTEST:
+            raise ExportError(f"the pace is from {SLOWEST:g} to {FASTEST:g}, not {self.pace:g}")
+        if self.level is not None and not 0 <= self.level <= MOST_LEVEL:
+            raise ExportError(f"levels go from 0 to {MOST_LEVEL}, not to {self.level}")
+        return self
+
+    def named(self, path: Path) -> Path:
+        """Where it goes: a folder, or a file with the format's suffix."""
+        if self.is_folder or path.suffix.lower() == self.kind.suffix:
+            return path
+        return path.with_name(path.name + self.kind.suffix)
+
+
+MANY_FILMS = ("everything", "lesson")
