@@ -211,6 +211,19 @@ def test_the_points_of_an_open_net_keep_their_numbers_on_the_limit():
     assert np.abs(chosen.points[0] - marks.points[at]).max() < 1e-12
 
 
+def test_the_limits_of_an_open_curve_wear_their_own_influence():
+    state = held(lab("polygon", control=True, limit=True), 2)
+    what = surface.shown(state, state.now.lead)
+    column = what.trace.influence(2, len(what.trace.stages))
+    wanted = ramps.coloured(column, (0.0, column.max()), THEMES["light"], is_signed=False)
+    k, points = len(what.trace.stages) - 1, what.trace.points[-1]
+    assert len(points) < len(what.trace.points[k])
+    for markers in (m for m in scene(state).markers if m.stage < 0):
+        for at in markers.points:
+            row = int(np.argmin(np.linalg.norm(points - at, axis=1)))
+            assert np.abs(np.array(markers.colour) - wanted[row]).max() < 1 / 64
+
+
 def test_where_there_is_no_limit_a_sentence_says_why():
     literal = bench.choose_boundary(lab("quad-sheet"), 0, Boundary.LITERAL)
     assert "no limit rule" in scene(st.choose(st.last(literal), limit=True)).remark
@@ -295,3 +308,16 @@ def test_both_painters_show_the_colours():
 def test_what_a_surface_shows_is_kept_in_a_session():
     state = lab("net", basis=True, limit=True, distances=True, surface_shows="reflections")
     assert restored(kept(state)).options == state.options
+
+
+@pytest.mark.parametrize("lesson", lessons.all_lessons(), ids=lambda lesson: lesson.id)
+def test_every_lesson_can_wear_everything(lesson):
+    everything = [
+        {"basis": True, "limit": True, "distances": True},
+        {"limit": True, "surface_shows": "mean curvature"},
+        {"surface_shows": "reflections"},
+        {"surface_shows": "normals", "control": True},
+    ]
+    for options in everything:
+        state = st.look(st.choose(st.last(st.start(lesson)), **options), st.Spot(0, 0, 0))
+        assert overlay(compose(state), 640, 360)
