@@ -349,7 +349,7 @@ def test_the_panes_show_the_numbers_of_the_engine(family, n):
     texts = [note.text for note in table.notes]
     for c in counted:
         assert f"{c.vertices}" in texts
-        assert f"{c.apart}" in texts
+        assert f"{c.apart} edge{'s' * (c.apart > 1)}" in texts
 
 
 def test_schemes_without_a_ring_are_told_in_a_sentence():

@@ -23,11 +23,14 @@ SMALL = 7
 AXIS = 10.0
 """Cells from 0 to 1 on the number line of eigenvalues."""
 
-LONG = 1.3
+LONG = 1.6
 """Cells that a value takes beside its mark."""
 
 MOST_LEVELS = 7
 """Rows of the table of counts."""
+
+ROW = 0.042
+"""How high a line of words is, of the height there is."""
 
 PALEST = 0.25
 """The lightest mark, relative to the heaviest."""
@@ -41,11 +44,14 @@ def spectrum(state: State, view: View, theme: Theme) -> tuple[Pane, ...]:
         found = analysis(view.trace.scheme, n)
     except TopologyError as refusal:
         return Pane(_sentence(str(refusal), theme), (0, 0, 1, 0.7)), Pane(table, (0, 0.7, 1, 0.3))
+    low = max(ROW * (len(_by_level(view.trace)[:MOST_LEVELS]) + 1.6), 0.2)
+    middle = max(ROW * (n // 2 + 3), 0.26)
+    high = 1 - middle - low
     return (
-        Pane(_matrix(found.ring, theme), (0, 0, 0.64, 0.42)),
-        Pane(_map(found, theme), (0.64, 0, 0.36, 0.42)),
-        Pane(_eigenvalues(found, theme), (0, 0.42, 1, 0.34)),
-        Pane(table, (0, 0.76, 1, 0.24)),
+        Pane(_matrix(found.ring, theme), (0, 0, 0.64, high)),
+        Pane(_map(found, theme), (0.64, 0, 0.36, high)),
+        Pane(_eigenvalues(found, theme), (0, high, 1, middle)),
+        Pane(table, (0, high + middle, 1, low)),
     )
 
 
@@ -69,7 +75,7 @@ def _weights(ring: Ring, theme: Theme) -> Diagram:
         for x, y, text in ((k, -1.0, name), (-1.0, k, name))
     ]
     cells = [
-        Box(j, i, (_spelled(stencil.weight(name)),), plain, theme.ink, theme.faint, 1.0, 1.0, group=1, line=1.2)
+        Box(j, i, _tersely(stencil.weight(name)), plain, theme.ink, theme.faint, 1.0, 1.0, group=1, line=1.2)
         for i, stencil in enumerate(ring.stencils)
         for j, name in enumerate(ring.names)
     ]
@@ -110,14 +116,20 @@ def in_words(stencil: NamedStencil, n: int) -> str:
 
 def _together(names: list[str], n: int) -> str:
     for letter in "EF":
-        if names == [f"{letter}{k}" for k in range(1, n + 1)]:
-            return f"Σ{letter}"
+        every = [f"{letter}{k}" for k in range(1, n + 1)]
+        if set(every) <= set(names):
+            names = [*(name for name in names if name not in every), f"Σ{letter}"]
     return names[0] if len(names) == 1 else f"({' + '.join(names)})"
 
 
 def _spelled(weight: Exact) -> str:
-    words = spelled(weight)
-    return f"≈{float(weight):.4f}" if "." in words else words
+    return _tersely(weight)[0]
+
+
+def _tersely(weight: Exact) -> tuple[str, ...]:
+    """A fraction; else, or where it has no room, four decimals, or three."""
+    words, decimals = spelled(weight), (said(float(weight)), said(float(weight), 3))
+    return decimals if "." in words else (words, *decimals)
 
 
 # -- the characteristic map ---------------------------------------------------------------------
@@ -131,12 +143,11 @@ def _map(found: Analysis, theme: Theme) -> Diagram:
         *(Link(*ends, theme.ink, 1.0, 3.2) for ends in net),
     )
     right, low = np.abs(np.array(net)).reshape(-1, 2).max(axis=0)
-    title = Note(0, -1.2 * low, "Characteristic map", theme.muted, "center")
     between = 1.0 if found.ring.valence <= 6 else right  # the tips of more faces leave no room
     first = Note(1.05 * between, 0, "E1", theme.muted)
-    return Diagram(
-        (-1.05 * right, -1.36 * low, max(right, between + 0.4), 1.05 * low), (), links, (title, first), largest=1000.0
-    )
+    left, end = -1.05 * right, max(right, between + 0.4)
+    title = Note((left + end) / 2, -1.2 * low, "Characteristic map", theme.muted, "center")
+    return Diagram((left, -1.36 * low, end, 1.05 * low), (), links, (title, first), largest=1000.0)
 
 
 @lru_cache(maxsize=64)
@@ -176,7 +187,7 @@ def _eigenvalues(found: Analysis, theme: Theme) -> Diagram:
     told = tuple(Note(AXIS + 0.3, k, _verdict(c), theme.ink) for k, c in _by_mode(found).items() if k < modes)
     named = tuple(Note(left - 0.25, k, _mode(k), theme.muted, "right") for k in range(modes))
     return Diagram(
-        (left - 2.4, -1.5, AXIS + 3.4, modes - 0.4), tuple(blanks), links,
+        (left - 2.8, -1.5, AXIS + 3.3, modes - 0.4), tuple(blanks), links,
         (*heads, *told, *named, *words),
         largest=64.0, shape=(0.2, 12.0),
     )  # fmt: skip
@@ -201,18 +212,18 @@ def _mode(k: int) -> str:
 def _values(found: Analysis, theme: Theme) -> tuple[list[Box], list[Note]]:
     """At the right of each mark what it is, where that does not reach the next one; lines stop there."""
     plain, blanks, words = theme.background, list[Box](), list[Note]()
-    for e in found.eigenvalues:
-        nearer = [o for o in found.eigenvalues if o.mode == e.mode and 0 < AXIS * (o.value - e.value) < LONG]
-        if e.value < 1 - LONG / AXIS and not nearer:
+    for k, e in enumerate(found.eigenvalues):
+        larger = [o for o in found.eigenvalues[:k] if o.mode == e.mode]
+        if e.value < 1 - LONG / AXIS and not any(-EQUAL < o.value - e.value < LONG / AXIS for o in larger):
             x, text = AXIS * e.value + 0.12, said(e.value)
             blanks.append(Box(x + LONG / 2, e.mode, ("",), plain, plain, plain, LONG, 0.8, line=0.0))
             words.append(Note(x + 0.06, e.mode, text, theme.ink))
     return blanks, words
 
 
-def said(value: float) -> str:
-    """An eigenvalue in four decimals, as tables have it: .2500; zero, however it was rounded, as 0."""
-    return "0" if abs(value) <= EQUAL else f"{value:.4f}".replace("-", "−").replace("0.", ".", 1)
+def said(value: float, places: int = 4) -> str:
+    """A number in decimals, as tables have it: .2500; zero, however it was rounded, as 0."""
+    return "0" if abs(value) <= EQUAL else f"{value:.{places}f}".replace("-", "−").replace("0.", ".", 1)
 
 
 # -- counts -------------------------------------------------------------------------------------
@@ -224,7 +235,7 @@ COLUMNS = (
     ("F", 4.8),
     ("χ", 5.8),
     ("extraordinary", 8.1),
-    ("edges apart", 10.0),
+    ("apart", 10.0),
 )
 """What is counted, and where its figures end."""
 
@@ -239,12 +250,12 @@ def _counts(trace: Trace, level: int, theme: Theme) -> Diagram:
         for (_, x), text in zip(COLUMNS, _told(k, c), strict=True)
     ]
     line = Link(-1.1, 0.5, 10.0, 0.5, theme.faint, 1.0, 2.0)
-    return Diagram((-1.2, -0.6, 10.1, len(rows) + 0.6), (), (line,), (*heads, *cells), largest=64.0, shape=(0.2, 12.0))
+    return Diagram((-1.2, -0.5, 10.1, len(rows) + 0.5), (), (line,), (*heads, *cells), largest=64.0, shape=(0.2, 12.0))
 
 
 def _told(level: int, c: Counts) -> tuple[str, ...]:
     numbers = (c.vertices, c.edges, c.faces, c.euler, c.extraordinary)
-    apart = "–" if c.apart is None else f"{c.apart:,}"
+    apart = "–" if c.apart is None else f"{c.apart:,} edge{'s' * (c.apart != 1)}"
     return (f"{level}", *(f"{number:,}".replace("-", "−") for number in numbers), apart)
 
 
