@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QMainWindow,
     QMessageBox,
-    QScrollArea,
     QSplitter,
     QToolButton,
     QWidget,
@@ -27,12 +26,15 @@ from PySide6.QtWidgets import (
 import lessons
 from app import bench
 from app.draw.theme import THEMES
+from app.export.wish import Wish
 from app.gui import menus, saving
 from app.gui.autosave import Autosave
 from app.gui.banner import Banner
 from app.gui.contents import Contents
+from app.gui.details import Details
 from app.gui.document import Document
 from app.gui.editing import EDITS, SHARPNESS, Editing
+from app.gui.export import ExportDialog, Exporter
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
 from app.gui.laboratory import Laboratory
@@ -84,12 +86,13 @@ class Window(QMainWindow):
         self.timeline = Timeline(session, self._button)
         self.contents = Contents(session, lessons.all_lessons())
         self.contents.found.connect(self.leave_search)
-        self.laboratory = Laboratory(session, self.banner.say)
+        self.laboratory = Laboratory(session, self.banner)
         self.editing = Editing(session, self.banner)
         self.spectrum = Spectrum(session, self.laboratory.wish)
         self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
         self.surface = Surface(session)
         self._build()
+        self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
         self.opener = Opener(session, self.banner, self.opened)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
@@ -285,6 +288,32 @@ class Window(QMainWindow):
         else:
             self.banner.tell(f"Saved {written}")
 
+    def choose_export(self) -> None:
+        """Ask what is to be taken away, and where to; then make it."""
+        dialog = ExportDialog(self, self.session.state.options.theme, self._wish)
+        if dialog.exec() == ExportDialog.DialogCode.Accepted:
+            self._wish = dialog.wish
+            if path := self._ask_where(self._wish):
+                self.export_to(self._wish, path)
+
+    def export_to(self, wish: Wish, path: Path) -> None:
+        """Make what is wished for of what is open."""
+        self.exporter.start(self.session.state, wish, wish.named(path))
+
+    def _ask_where(self, wish: Wish) -> Path | None:
+        folder = Path(self._folder("exports"))
+        if wish.is_folder:
+            chosen = QFileDialog.getExistingDirectory(self, "Export into a folder", str(folder))
+        else:
+            name = "lecture" if wish.of == "everything" else self.session.state.lesson.id
+            kind = f"{wish.kind.title} (*{wish.kind.suffix})"
+            suggested = str(folder / f"{name}{wish.kind.suffix}")
+            chosen, _ = QFileDialog.getSaveFileName(self, "Export", suggested, kind)
+        if not chosen:
+            return None
+        self.settings.setValue("folder_exports", str(Path(chosen) if wish.is_folder else Path(chosen).parent))
+        return Path(chosen)
+
     def copy_picture(self) -> None:
         QGuiApplication.clipboard().setImage(saving.image(self.viewport.picture(), self.viewport.size()))
         self.banner.tell("The picture is on the clipboard.")
@@ -323,7 +352,8 @@ class Window(QMainWindow):
         self._is_presenting, self._wants_details = False, True
         self._hairlines: list[QWidget] = []
         middle = column(self.banner, self.viewport, self._hairline(), self.timeline, stretched=self.viewport)
-        self._sides = {"contents": self.contents, "details": self._details()}
+        self.details = self._details()
+        self._sides = {"contents": self.contents, "details": self.details}
         self._splitter = QSplitter(Qt.Orientation.Horizontal)
         self._splitter.setHandleWidth(1)
         for part in (self._sides["contents"], middle, self._sides["details"]):
@@ -342,18 +372,10 @@ class Window(QMainWindow):
             row.addWidget(self._button(id_, 28))
         self.menuBar().setCornerWidget(corner)
 
-    def _details(self) -> QWidget:
+    def _details(self) -> Details:
         why = Section("Why is it here?", self.why, stretched=self.why)
-        shown, surface = Section("Shown", self.shown), Section("Surface shows", self.surface)
-        tools = (self.laboratory, self.editing, self.spectrum, self.knobs)
-        inside = column(*tools, shown, surface, why, self.notes, stretched=why)
-        inside.setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)
-        scroll = QScrollArea(widgetResizable=True)
-        scroll.setWidget(inside)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setMinimumWidth(184)
-        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        return scroll
+        tools = (Section("Shown", self.shown), self.editing, Section("Surface shows", self.surface), self.spectrum)
+        return Details(self.laboratory, self.knobs, why, self.notes, *tools, stretched=why)
 
     def _hairline(self) -> QWidget:
         line = QWidget()
@@ -406,6 +428,7 @@ class Window(QMainWindow):
         for name, side in self._sides.items():
             side.setHidden(self.settings.value(name, "shown") == "hidden")
         self._wants_details = not self._sides["details"].isHidden()
+        self.details.restore(self.settings)
 
     def _keep(self) -> None:
         if self._is_presenting:
@@ -414,6 +437,7 @@ class Window(QMainWindow):
         self.settings.setValue("panels", self._splitter.saveState())
         self.settings.setValue("contents", "hidden" if self.contents.isHidden() else "shown")
         self.settings.setValue("details", "shown" if self._wants_details else "hidden")
+        self.details.keep(self.settings)
         self.settings.sync()
 
     def _may_close(self) -> bool:
@@ -464,6 +488,7 @@ class Window(QMainWindow):
             event.ignore()
             return
         self.session.stop()
+        self.exporter.stop()
         self.session.changed.disconnect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.disconnect(self._follow_system)
         QApplication.instance().removeEventFilter(self._guard)  # type: ignore[union-attr]

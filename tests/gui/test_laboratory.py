@@ -146,3 +146,13 @@ def test_a_change_worked_out_elsewhere_is_forgotten_when_a_newer_one_is_wished(w
     qtbot.waitUntil(lambda: not panel.worker.is_busy, timeout=20000)
     assert window.session.state.lab.rules[0].family == "catmull-clark"
     assert "triangle" in window.banner.words.text()
+
+
+def test_folded_sections_stay_folded_in_the_next_window(window, settings, qtbot):
+    open_by_keyboard(window)
+    next(h for h in window.details.findChildren(Head) if h.text() == "Shown").click()
+    window.details.keep(settings)
+    for head in window.details.findChildren(Head):
+        head.setChecked(True)
+    window.details.restore(settings)
+    assert [h.text() for h in window.details.findChildren(Head) if not h.isChecked()] == ["Shown"]
