@@ -70,7 +70,15 @@ class Banner(QWidget):
     def wait(self, sentence: str, on_cancel: Callable[[], None]) -> None:
         """Something takes a while."""
         self._on_cancel = on_cancel
+        self._busy.setRange(0, 0)
         self._set(sentence, is_fault=False, is_busy=True)
+
+    def progress(self, part: float, sentence: str) -> None:
+        """How much of what takes a while is done, 0..1; it stays away where it was put away."""
+        if not self.isHidden() and not self._busy.isHidden():
+            self._busy.setRange(0, 1000)
+            self._busy.setValue(round(1000 * part))
+            self.words.setText(sentence)
 
     def done(self) -> None:
         """What took a while is over."""

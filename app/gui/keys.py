@@ -127,6 +127,7 @@ COMMANDS = (
     Command("copy_link", "Copy link", "File", ("Ctrl+L",), lambda w: w.copy_link()),
     Command("paste_link", "Paste link", "File", ("Ctrl+V",), lambda w: w.paste_link()),
     Command("save_picture", "Save picture as…", "File", ("Ctrl+E",), lambda w: w.save_picture()),
+    Command("export", "Export…", "File", ("Ctrl+Shift+E",), lambda w: w.choose_export()),
     Command("copy", "Copy picture", "File", ("Ctrl+C",), lambda w: w.copy_picture()),
     Command("quit", "Quit", "File", ("Ctrl+Q",), lambda w: w.quit()),
     Command("undo", "Undo", "Edit", ("Ctrl+Z",), lambda w: w.session.undo(), repeats=True),

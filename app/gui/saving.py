@@ -1,6 +1,7 @@
 """The picture as it is seen now, in a file or on the clipboard."""
 
 import sys
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from PySide6.QtCore import QBuffer, QIODevice, QSize
@@ -12,7 +13,7 @@ from subdivision.files.saving import save as write
 WIDTH = 1920
 """Pixels: a saved picture is at least so wide, and at least twice as fine as on the screen."""
 
-SUFFIXES = (".png", ".svg")
+SUFFIXES = (".png", ".svg", ".pdf")
 
 
 class SavingError(Exception):
@@ -29,9 +30,11 @@ def save(picture: Picture, path: Path, seen: QSize) -> Path:
     """
     path = path if path.suffix else path.with_suffix(".png")
     if path.suffix.lower() not in SUFFIXES:
-        raise SavingError(f"Pictures end in {' or '.join(SUFFIXES)}, not in {path.suffix}: choose another name.")
+        raise SavingError(
+            f"Pictures end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}, not in {path.suffix}: choose another name."
+        )
     try:
-        write(path, [_png(picture, seen) if path.suffix.lower() == ".png" else _svg(picture, seen)])
+        write(path, [_WRITERS[path.suffix.lower()](picture, seen)])
     except OSError as fault:
         raise SavingError(f"{path} could not be written ({fault.strerror}): choose another folder.") from fault
     return path
@@ -48,6 +51,15 @@ def _svg(picture: Picture, seen: QSize) -> bytes:
     from app.draw.vector import svg
 
     return svg(picture, *_size(seen)).encode()
+
+
+def _pdf(picture: Picture, seen: QSize) -> bytes:
+    from app.draw.pdf import pdf
+
+    return pdf(picture, *_size(seen))
+
+
+_WRITERS: Mapping[str, Callable[[Picture, QSize], bytes]] = {".png": _png, ".svg": _svg, ".pdf": _pdf}
 
 
 def image(picture: Picture, seen: QSize) -> QImage:

@@ -4,7 +4,6 @@ It contains a ``QtInteractor`` and sees all its input first.  VTK gets none of i
 ``Turn``, a value, so no hot key can fire and all panes stay linked.
 """
 
-from dataclasses import replace
 from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer
@@ -17,6 +16,7 @@ from app.draw.compose import compose
 from app.draw.layout import fitted, overlay, pane_areas, part_at
 from app.draw.picture import Camera, Picture, Scene
 from app.draw.primitives import Area
+from app.draw.seen import from_there
 from app.draw.selected import is_pickable
 from app.draw.turned import turned
 from app.editing import extended
@@ -139,13 +139,7 @@ class Viewport(QWidget):
 
     def picture(self) -> Picture:
         """The picture as it is seen now: from where the hand has turned it."""
-        panes = (
-            replace(pane, content=replace(pane.content, camera=turned(pane.content.camera, self._state.turn)))
-            if isinstance(pane.content, Scene)
-            else pane
-            for pane in self._picture.panes
-        )
-        return replace(self._picture, panes=tuple(panes))
+        return from_there(self._picture, self._state.turn)
 
     def paint_flat(self, painter: QPainter) -> None:
         """Everything of the picture that is not in space."""

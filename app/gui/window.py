@@ -274,7 +274,8 @@ class Window(QMainWindow):
 
     def save_picture(self) -> None:
         suggested = str(Path(self._folder("pictures")) / f"{self.session.state.lesson.id}.png")
-        path, _ = QFileDialog.getSaveFileName(self, "Save the picture", suggested, "PNG (*.png);;SVG (*.svg)")
+        kinds = "PNG (*.png);;SVG (*.svg);;PDF (*.pdf)"
+        path, _ = QFileDialog.getSaveFileName(self, "Save the picture", suggested, kinds)
         if path:
             self.settings.setValue("folder_pictures", str(Path(path).parent))
             self.save_picture_to(path)
