@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterator
-from fractions import Fraction
 from math import lcm
 
 from app.draw.diagrams import mixed
@@ -48,6 +47,11 @@ def over_one(table: Mask) -> tuple[list[list[int]], int]:
     below = lcm(*(c.denominator for row in table.rows for c in row))
     upwards = zip(*table.rows, strict=True)
     return [[int(c * below) for c in row] for row in reversed(list(upwards))], below
+
+
+def shade(count: int, heaviest: int) -> float:
+    """How much ink there is behind a coefficient: none behind 0."""
+    return PALEST + (DARKEST - PALEST) * count / heaviest if count else 0.0
 
 
 def facts(vectors: tuple[Vector, ...]) -> str:
@@ -100,9 +104,8 @@ def _boxes(table: Mask, top: float, side: float, theme: Theme) -> Iterator[Box]:
     left = -side * len(rows[0]) / 2
     for j, row in enumerate(rows):
         for i, count in enumerate(row):
-            shade = PALEST + (DARKEST - PALEST) * float(Fraction(count, heaviest)) if count else 0.0
             yield Box(
                 left + side * (i + 0.5), top + side * (j + 0.5), (str(count) if count else "",),
-                mixed(theme.muted, theme.background, shade), theme.ink, theme.faint,
+                mixed(theme.muted, theme.background, shade(count, heaviest)), theme.ink, theme.faint,
                 0.94 * side, 0.94 * side, line=RULE,
             )  # fmt: skip

@@ -4,7 +4,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
-from app.draw.lattice import over_one
+from app.draw.lattice import over_one, shade
 from app.draw.theme import THEMES
 from app.gui.look import GRID, colour, mixed, type_face
 from app.gui.session import Session
@@ -12,8 +12,7 @@ from subdivision.catalogue import Vectors
 from subdivision.continuity import mask
 
 ROW = 20
-PALEST, DARKEST = 0.10, 0.42
-"""How much ink the lightest and the heaviest coefficient have behind them."""
+"""Height of a row in pixels."""
 
 
 class MaskTable(QWidget):
@@ -70,8 +69,7 @@ class Cells(QWidget):
         wide = min(self.width() / len(self.rows[0]), 2.0 * ROW)
         for j, row in enumerate(self.rows):
             for i, count in enumerate(row):
-                shade = PALEST + (DARKEST - PALEST) * count / heaviest if count else 0.0
-                ground = colour(mixed(theme.panel, theme.muted, shade))
+                ground = colour(mixed(theme.panel, theme.muted, shade(count, heaviest)))
                 self._cell(painter, QRectF(i * wide, j * ROW, wide, ROW), count, ground, colour(theme.ink))
         painter.end()
 

@@ -92,6 +92,9 @@ class Vectors(QWidget):
             return
         self.lattice.show_state(state)
         self.passes.show_state(state)
+        name = boxlab.preset_of(vectors)
+        names = [(each, each) for each in boxlab.PRESETS]
+        self.preset.show_values(names if name else [(OWN, ""), *names], name)
         self.picture.setChecked(state.options.lattice)
         self.overlay.setChecked(state.lab.overlay > 0)
         self.next.setVisible(state.lab.overlay > 0)
@@ -100,9 +103,6 @@ class Vectors(QWidget):
             self._tell(vectors)
 
     def _tell(self, vectors: VectorSet) -> None:
-        name = boxlab.preset_of(vectors)
-        names = [(each, each) for each in boxlab.PRESETS]
-        self.preset.show_values(names if name else [(OWN, ""), *names], name)
         k = smoothness(vectors)
         jumps = "jumps" if k < 0 else f"C<sup>{k}</sup>"
         self.facts.setText(f"degree {degree(vectors)}&nbsp; alpha {alpha(vectors)}&nbsp; {jumps}")
