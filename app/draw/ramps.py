@@ -1,6 +1,5 @@
 """Colours for numbers: ordered by lightness, and safe for colour-blind eyes."""
 
-import matplotlib
 import numpy as np
 
 from app.draw.picture import Bar, Colour
@@ -24,7 +23,9 @@ def ramp(theme: Theme, is_signed: bool) -> Floats:
     """(STEPS, 3): from the least to the most; without a sign, from the bare surface to the colour of what is chosen."""
     t = np.linspace(0, 1, STEPS)
     if is_signed:
-        return np.array(matplotlib.colormaps[SIGNED](0.5 + CLEAR * (t - 0.5)))[:, :3]
+        from matplotlib import colormaps  # here, so that the command line answers without it
+
+        return np.array(colormaps[SIGNED](0.5 + CLEAR * (t - 0.5)))[:, :3]
     return np.asarray((1 - t)[:, None] * np.array(theme.surface) + t[:, None] * np.array(theme.selection))
 
 
