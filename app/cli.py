@@ -182,6 +182,20 @@ def _to_export(options: argparse.Namespace) -> State:
     return open_lesson(state, state.lesson, options.step - 1) if options.step else last(state)
 
 
+def write_page(options: argparse.Namespace) -> None:
+    """Write a lesson as one HTML file that plays by itself."""
+    from app.page import write_page_of
+    from app.state import Options, start
+
+    (chosen,) = _turned([_lesson(options.lesson)], dict(options.set))
+    path = options.output or Path(f"{chosen.id}.html")
+    try:
+        size = write_page_of(start(chosen, Options(as_caption=options.as_caption)), path)
+    except FigureError as fault:
+        raise Fault(str(fault)) from fault
+    print(f"{path}: {size / 1000:.0f} kB, opens in any browser")
+
+
 def subdivide_file(options: argparse.Namespace) -> None:
     """Read a mesh, subdivide it, write it."""
     mesh = files.read(options.input)
@@ -310,8 +324,19 @@ def _for_export(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=export_files)
 
 
+def _for_page(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("lesson", metavar="LESSON", help="a figure's number, or an id")
+    parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="an HTML file (the lesson's id)")
+    _colours_and_knobs(parser)
+    parser.set_defaults(run=write_page)
+
+
 def _looks(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--theme", choices=list(THEMES), default="")
+    _colours_and_knobs(parser)
+
+
+def _colours_and_knobs(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--as-caption", action="store_true", help="colours as in the lecture's own captions")
     parser.add_argument(
         "--set", type=_setting, action="append", default=[], metavar="NAME=VALUE",
@@ -349,6 +374,7 @@ COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
     "lessons": (_for_lessons, "list the lessons"),
     "figures": (_for_figures, "render lessons to pictures; needs no screen"),
     "export": (_for_export, "take away pictures, films, slides, a handout, meshes; needs no screen"),
+    "page": (_for_page, "write a lesson as one HTML file that plays by itself"),
     "subdivide": (_for_subdivide, "subdivide a mesh file"),
     "stencil": (_for_stencil, "print exact weights at a valence"),
     "mask": (_for_mask, "print a box spline's mask, degree and continuity"),

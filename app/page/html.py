@@ -67,7 +67,7 @@ def page(recorded: Record) -> bytes:
         '<meta name="generator" content="Subdivision Studio">',
         f"<title>{escape(title)}</title>",
         f"<style>{style}</style>\n</head>\n<body>",
-        *_player(title, len(recorded.captions)),
+        *_player(lesson.title, len(recorded.captions)),
         *_below(recorded),
         f'<script type="application/octet-stream" id="lesson">{_packed(recorded)}</script>',
         f"<script>{script}</script>\n</body>\n</html>\n",
@@ -81,11 +81,12 @@ def page(recorded: Record) -> bytes:
 def _player(title: str, steps: int) -> Iterator[str]:
     """The picture, and what is round it: filled by the script."""
     yield '<main class="player">'
-    yield f'<header><h1>{escape(title)}</h1><p id="corner"></p></header>'
+    yield f'<header><h1>{escape(title).replace("  ", "&ensp;")}</h1><p id="corner"></p></header>'
     yield '<div id="stage" tabindex="0" role="group" aria-label="Picture: drag to turn it">'
     yield '<canvas id="picture" role="img"></canvas></div>'
     yield '<ul id="legend" aria-label="What the points are"></ul>'
-    yield '<div id="words" aria-live="polite"><noscript>The picture needs JavaScript; the steps are below.</noscript></div>'
+    yield '<div id="words" aria-live="polite">'
+    yield "<noscript>The picture needs JavaScript; the steps are below.</noscript></div>"
     yield '<nav aria-label="Steps">'
     for id_, name, icons in BUTTONS:
         drawn = "".join(_icon(icon) for icon in icons)
@@ -112,7 +113,7 @@ def _below(recorded: Record) -> Iterator[str]:
         ends = k + 1 == len(stops) or stops[k + 1]["beat"] != stops[k]["beat"]
         yield f'<li><a class="printless" href="#step={k + 1}" aria-label="Go to step {k + 1}">Show</a>'
         yield f'<p class="caption">{_themed(light, dark)}</p>'
-        yield f'<p class="formula">{_words(beat.formula)}</p>' if beat.formula else ""
+        yield f'<p class="formula">{_words(_tall(beat.formula))}</p>' if beat.formula else ""
         yield f'<p class="notes">{_words(beat.notes)}</p>' if beat.notes and ends else ""
         yield "</li>"
     yield "</ol>"
@@ -132,6 +133,11 @@ def _themed(light: str, dark: str) -> str:
 def _words(text: str) -> str:
     """Words as text; what stands between dollars as an outline on their line."""
     return "".join(_mathematics(run.text) if run.is_math else escape(run.text) for run in runs(text))
+
+
+def _tall(formula: str) -> str:
+    """A formula on a line of its own has room for fractions."""
+    return formula.replace(r"\frac", r"\dfrac")
 
 
 def _mathematics(formula: str) -> str:

@@ -27,21 +27,22 @@ function frame(now) {
 function draw(fine) {
   const stage = $("stage"), shown = player.shown;
   const density = Math.min(devicePixelRatio || 1, 2);
+  tell(shown); // first, for the words leave the stage its room
   const size = { wide: stage.clientWidth, tall: stage.clientHeight };
   drawPicture($("picture"), shown, { ...size, density, fine: fine / Math.max(density, 1), turn, isDark: isDark() });
-  tell(shown);
 }
 
 // -- words ------------------------------------------------------------------------------------
 
-let told = -1;
+let told = "", legendTold = "";
 
 /** The words that belong to what is shown. */
-function tell({ still, corner }) {
+function tell({ still, corner, legend }) {
   const number = lesson.stops.indexOf(still);
-  $("corner").textContent = corner ?? still.corner;
+  $("corner").textContent = corner;
   $("play").setAttribute("aria-pressed", String(player.isThrough));
   $("play").classList.toggle("playing", player.isThrough);
+  tellLegend(legend);
   const key = `${number} ${isDark()}`;
   if (told === key) return;
   told = key;
@@ -54,12 +55,14 @@ function tell({ still, corner }) {
   $("first").disabled = $("back").disabled = number === 0;
   $("forward").disabled = $("last").disabled = number === lesson.stops.length - 1;
   steps().forEach((each, k) => each.toggleAttribute("aria-current", k === number));
-  tellLegend(still.legend);
   if (!testing) history.replaceState(null, "", `#step=${number + 1}`);
 }
 
 /** The legend: one entry for each kind of point in the picture. */
 function tellLegend(entries) {
+  const key = JSON.stringify([entries, isDark()]);
+  if (legendTold === key) return;
+  legendTold = key;
   const items = entries.map(([shape, colour, text]) => {
     const item = document.createElement("li");
     const mark = document.createElement("canvas");
@@ -127,10 +130,12 @@ function typed(event) {
   event.preventDefault();
 }
 
-/** A link such as #step=5 opens at a step. */
+/** A link such as #step=5 opens at a step; #step=5&at=0.4 at that part of the way to it. */
 function fromAddress() {
-  const found = /step=(\d+)/.exec(location.hash);
-  if (found) jump(Number(found[1]) - 1);
+  const asked = new URLSearchParams(location.hash.slice(1));
+  const step = asked.get("step"), at = asked.get("at");
+  if (step) jump(Number(step) - 1);
+  if (at && lesson.legs[player.stop]) player.hold(player.stop, Number(at));
 }
 
 // -- turning ----------------------------------------------------------------------------------
@@ -269,7 +274,7 @@ function listen() {
     event.preventDefault();
     zoom(Math.exp(-0.0015 * event.deltaY));
   }, { passive: false });
-  new ResizeObserver(refresh).observe(stage);
+  new ResizeObserver(() => draw(2)).observe(stage); // before it is painted in its new size
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", refresh);
   addEventListener("hashchange", fromAddress);
   addEventListener("beforeprint", printing);

@@ -51,7 +51,11 @@ function drawPicture(canvas, shown, { wide, tall, density, fine, turn, isDark })
 }
 
 function sightOf(camera, area, turn) {
-  return new Sight(turned(fitted(camera, area), turn), area);
+  const sight = new Sight(turned(fitted(camera, area), turn), area);
+  const tangent = Math.tan((camera.angle * Math.PI) / 360);
+  const far = length(minus(camera.position, camera.focal));
+  sight.dash = (LOOKS.dash / 1000) * heightSeen({ ...camera, tangent }) * sight.perUnit(far / turn.zoom);
+  return sight;
 }
 
 /** The solid surfaces, then the translucent ones over them. */

@@ -12,6 +12,7 @@ class Player {
     this.stop = 0;
     this.going = RESTING;
     this.isThrough = false;
+    this.isHeld = false;
     this.until = 0;
     this.prefersStill = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
   }
@@ -24,11 +25,15 @@ class Player {
   get shown() {
     const { leg, x, way } = this.going;
     const still = this.lesson.stops[this.stop];
-    if (!way) return { panes: still.panes, parts: still.panes.map((pane) => this.lesson.parts(pane, 0)), still };
+    if (!way) {
+      const parts = still.panes.map((pane) => this.lesson.parts(pane, 0));
+      return { panes: still.panes, parts, still, corner: still.corner, legend: still.legend };
+    }
     const played = this.lesson.legs[leg];
     const panes = played.panes.map((pane) => this.withReading(pane, x));
     const parts = played.panes.map((pane) => this.lesson.parts(pane, this.time(pane, x)));
-    return { panes, parts, still: this.lesson.stops[leg], corner: played.corner };
+    const legend = (played.legends.findLast(([begins]) => begins <= x) ?? played.legends[0])[1];
+    return { panes, parts, still: this.lesson.stops[leg], corner: played.corner, legend };
   }
 
   time(pane, x) {
@@ -48,12 +53,22 @@ class Player {
   go(stop) {
     this.stop = clamp(stop, 0, this.last);
     this.going = RESTING;
+    this.isHeld = false;
     this.until = 0;
+    this.changed();
+  }
+
+  /** Be at part `x` of the way to a stop, and stay there. */
+  hold(leg, x) {
+    this.stop = leg;
+    this.going = { leg, x: clamp(x, 0, 1), way: 1 };
+    this.isHeld = true;
     this.changed();
   }
 
   /** Play to the next stop; if playing already, be there at once and play on. */
   forward() {
+    if (this.isHeld) return this.resume(1);
     this.settle();
     if (this.stop === this.last) return;
     this.start(this.stop + 1, 1);
@@ -61,6 +76,7 @@ class Player {
 
   /** Play backwards to the stop before. */
   back() {
+    if (this.isHeld) return this.resume(-1);
     this.settle();
     if (this.stop === 0) return;
     this.start(this.stop, -1);
@@ -75,18 +91,30 @@ class Player {
     }
   }
 
+  resume(way) {
+    this.going = { ...this.going, way };
+    this.isHeld = false;
+    this.changed();
+  }
+
   settle() {
     const { leg, way } = this.going;
     if (way) this.stop = way > 0 ? leg : leg - 1;
     this.going = RESTING;
+    this.isHeld = false;
   }
 
-  /** Play through to the end, with rests to read; or pause. */
+  /** Play through to the end, with rests to read; or pause where we are. */
   toggle() {
-    this.isThrough = !this.isThrough;
-    if (this.isThrough && this.stop === this.last && !this.going.way) this.go(0);
-    else if (this.isThrough && !this.going.way) this.forward();
-    if (!this.going.way) this.until = performance.now() + this.rest;
+    if (this.isMoving) {
+      this.isThrough = false;
+      this.isHeld = this.going.way !== 0;
+    } else {
+      this.isThrough = true;
+      if (this.stop === this.last && !this.isHeld) this.go(0);
+      else this.forward();
+      if (!this.going.way) this.until = performance.now() + this.rest;
+    }
     this.changed();
   }
 
@@ -99,7 +127,7 @@ class Player {
   }
 
   get isMoving() {
-    return this.going.way !== 0 || this.isThrough;
+    return !this.isHeld && (this.going.way !== 0 || this.isThrough);
   }
 
   /** `passed` milliseconds later. */

@@ -10,6 +10,7 @@ from itertools import groupby, pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.draw.compose import compose, said
 from app.draw.layout import overlay, pane_areas
@@ -20,12 +21,12 @@ from app.page.tables import Tables
 from app.state import State, Stop, at_stop, choose, start, stops
 from subdivision.arrays import Floats
 
-WIDTH, HEIGHT = 1600.0, 760.0
-"""Diagrams are laid out for panes that share so many pixels; the player scales them."""
+WIDTH, HEIGHT = 1600.0, 900.0
+"""Diagrams are laid out for a picture of so many pixels; the player scales their panes."""
 
 SOON = 1e-6
 INSTANTS = (SOON, 0.08, 0.17, 0.25, 0.33, 0.42, 0.5 - SOON, 0.5 + SOON, 0.58, 0.65, 0.72, 0.81, 0.9, 1 - SOON)
-"""When a stage is looked at, in eased time: just within its ends and on both sides of its middle, where roles change."""
+"""When a stage is looked at, in eased time: just within its ends, and round its middle, where roles change."""
 
 EXACT: Mapping[str, float] = {
     "points": 1.01, "radius": 2e-3, "opacity": 4e-3, "width": 4e-3, "size": 4e-3, "flat": 0.06,
@@ -35,13 +36,15 @@ EXACT: Mapping[str, float] = {
 Value: TypeAlias = Any
 """What JSON can hold."""
 
+Numbers: TypeAlias = NDArray[Any]
+
 
 @dataclass(frozen=True, eq=False)
 class Part:
     """One thing on a picture: ``what`` it is stays while a stage plays, the numbers of its ``tracks`` change."""
 
     what: tuple[Value, ...]
-    tracks: Mapping[str, Floats]
+    tracks: Mapping[str, Numbers]
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +101,7 @@ def _still(state: State, tables: Tables) -> Value:
     return {
         "beat": state.beat,
         "corner": picture.corner,
-        "legend": [[e.shape.value, tables.colour(e.colour), e.text] for e in picture.legend],
+        "legend": _legend(picture, tables),
         "panes": [
             {**_frame(pane, tables), "pieces": [_piece([(0.0, parts)], tables)]}
             for pane, parts in zip(picture.panes, panes, strict=True)
@@ -129,7 +132,13 @@ def _leg(state: State, before: Stop, stop: Stop, tables: Tables) -> Value:
         is_flat = isinstance(pane.content, Diagram)
         pieces = [_merged(samples, tables)] if is_flat else list(_pieces(samples, tables))
         panes.append({**_frame(pane, tables), **shown, "from": a, "to": b, "pieces": pieces})
-    return {"stages": abs(stop.at - begin), "corner": first.corner, "panes": panes}
+    legends = [(x, _legend(picture, tables)) for x, picture in pictures]
+    changes = [one for before, one in pairwise([(0.0, None), *legends]) if one[1] != before[1]]
+    return {"stages": abs(stop.at - begin), "corner": first.corner, "legends": changes, "panes": panes}
+
+
+def _legend(picture: Picture, tables: Tables) -> Value:
+    return [[entry.shape.value, tables.colour(entry.colour), entry.text] for entry in picture.legend]
 
 
 def _instants(a: float, b: float) -> Iterator[float]:
@@ -187,8 +196,7 @@ def _camera(camera: Camera) -> Value:
 
 def _panes(picture: Picture, tables: Tables) -> list[list[Part]]:
     """The parts of every pane."""
-    areas = pane_areas(_bare(picture), WIDTH, HEIGHT, False)
-    flat = _flat(picture, areas, tables)
+    flat = _flat(_bare(picture), tables)
     return [
         list(_scene(pane.content, tables)) if isinstance(pane.content, Scene) else flat[k]
         for k, pane in enumerate(picture.panes)
@@ -196,9 +204,9 @@ def _panes(picture: Picture, tables: Tables) -> list[list[Part]]:
 
 
 def _bare(picture: Picture) -> Picture:
-    """The picture without words round its panes, and with nothing in its scenes."""
+    """The picture with no words but title and caption, and with nothing in its scenes."""
     panes = tuple(replace(pane, title="", reading="", content=_empty(pane.content)) for pane in picture.panes)
-    return replace(picture, panes=panes, legend=(), title="", corner="", caption="", formula="")
+    return replace(picture, panes=panes, legend=(), corner="", formula="")
 
 
 def _empty(content: Scene | Diagram) -> Scene | Diagram:
@@ -206,6 +214,7 @@ def _empty(content: Scene | Diagram) -> Scene | Diagram:
 
 
 def _scene(scene: Scene, tables: Tables) -> Iterator[Part]:
+    what: tuple[Value, ...]
     for f in scene.faces:
         worn = -1 if f.colours is None else tables.bytes_of(f.colours)
         what = ("faces", tables.indices(f.sizes), tables.indices(f.corners), tables.colour(f.colour), worn)
@@ -215,10 +224,10 @@ def _scene(scene: Scene, tables: Tables) -> Iterator[Part]:
         is_sparse = len(used) < 0.7 * len(k.points)
         points, pairs = (k.points[used], pairs) if is_sparse else (k.points, k.pairs)
         what = ("lines", tables.indices(np.asarray(pairs)), tables.colour(k.colour), k.dashed)
-        sizes = {"opacity": np.array([k.opacity]), "width": np.array([k.width])}
+        sizes: dict[str, Numbers] = {"opacity": np.array([k.opacity]), "width": np.array([k.width])}
         yield Part(what, {"points": tables.places(points), **sizes})
     for m in scene.markers:
-        numbers = {"points": tables.places(m.points), "radius": m.radius, "opacity": m.opacity}
+        numbers: dict[str, Numbers] = {"points": tables.places(m.points), "radius": m.radius, "opacity": m.opacity}
         yield Part(("markers", m.shape.value, tables.colour(m.colour), len(m.points)), numbers)
     for n in scene.labels:
         what = ("label", tables.text(n.text), tables.colour(n.colour), *n.away)
@@ -226,14 +235,18 @@ def _scene(scene: Scene, tables: Tables) -> Iterator[Part]:
         yield Part(what, {"points": tables.places(n.at), **sizes})
 
 
-def _flat(picture: Picture, areas: Sequence[Area], tables: Tables) -> dict[int, list[Part]]:
+def _flat(picture: Picture, tables: Tables) -> dict[int, list[Part]]:
     """The strokes, plates, marks and words of all diagrams, by the number of their pane and measured from its corner.
 
-    Layout writes a box and then its words, so that each is told from its like by the number of the box before it.
+    Layout writes a box and then its words, so that each is told from its like by the number of the box before it;
+    what belongs to the whole picture comes last.
     """
+    areas = pane_areas(picture, WIDTH, HEIGHT)
+    laid = overlay(picture, WIDTH, HEIGHT)
+    words = overlay(replace(picture, panes=()), WIDTH, HEIGHT)
     found: dict[int, list[Part]] = {k: [] for k in range(len(areas))}
     boxes = dict.fromkeys(found, 0)
-    for each in overlay(_bare(picture), WIDTH, HEIGHT, words=False):
+    for each in laid[: len(laid) - len(words)]:
         middle = _middle(each)
         k = min(found, key=lambda k: _beyond(areas[k], middle))
         boxes[k] += isinstance(each, Plate)
@@ -260,6 +273,7 @@ def _beyond(area: Area, place: tuple[float, float]) -> float:
 def _primitive(each: Primitive, area: Area, box: int, tables: Tables) -> Part:
     left, top = area[:2]
     what: tuple[Value, ...]
+    numbers: tuple[float, ...]
     match each:
         case Stroke():
             what = ("stroke", 0, tables.colour(each.colour), each.dashed)
@@ -331,7 +345,7 @@ def _tracks(times: Sequence[float], parts: Sequence[Part], tables: Tables) -> di
     return {name: _track(name, times, [part.tracks[name] for part in parts], tables) for name in parts[0].tracks}
 
 
-def _track(name: str, times: Sequence[float], values: Sequence[Floats], tables: Tables) -> Value:
+def _track(name: str, times: Sequence[float], values: Sequence[Numbers], tables: Tables) -> Value:
     """The number of an array, if it stays; else the instants between which it runs straight, and their arrays."""
     stack = np.stack([np.asarray(v, dtype=float).ravel() for v in values])
     scale = float(np.abs(stack).max(initial=0.0)) if name == "radius" else 1.0

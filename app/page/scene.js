@@ -23,7 +23,7 @@ function drawLines(pen, part, sight, relief, point, paint) {
   pen.strokeStyle = paint(part.colour);
   pen.lineWidth = Math.max(part.width[0] * point, 0.5);
   pen.lineCap = part.dashed ? "butt" : "round";
-  if (part.dashed) pen.setLineDash([LOOKS.dash * point, LOOKS.dash * point]);
+  if (part.dashed) pen.setLineDash([sight.dash, sight.dash]);
   pen.stroke();
   pen.restore();
 }
