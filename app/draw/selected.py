@@ -17,8 +17,11 @@ PICKED = "picked"
 WIDTH = 11.0
 """Of a picked edge, in logical points."""
 
-TINT, VEIL = 0.5, 0.45
-"""How much of the selection's colour a picked face takes on, and how dense it is over a finer surface."""
+TINT = 0.5
+"""How much of the selection's colour a picked face takes on."""
+
+INSET = 0.12
+"""How far within a picked face its outline is drawn over a finer surface: part of the way to its middle."""
 
 AMID = 0.03
 """Radius of a marker where there are no others, relative to half the diagonal of the control object."""
@@ -41,8 +44,20 @@ def selected(scene: Scene, control: Mesh, picked: Picked, theme: Theme, *, is_co
     chosen = np.isin(np.arange(t.n_faces), numbers)
     if is_control:
         return replace(scene, faces=tuple(part for f in scene.faces for part in _parted(f, chosen[~t.hidden], theme)))
-    veil = Faces(control.points, t.face_sizes, t.origin, theme.selection, VEIL)
-    return replace(scene, faces=(*scene.faces, _only(veil, chosen)))
+    faces = _only(Faces(control.points, t.face_sizes, t.origin, theme.selection), chosen)
+    return replace(scene, lines=(*scene.lines, _outlined(faces, theme)))
+
+
+def _outlined(faces: Faces, theme: Theme) -> Lines:
+    """The outline of every face, a little within it."""
+    owner = np.repeat(np.arange(len(faces.sizes)), faces.sizes)
+    corners = faces.points[faces.corners]
+    middles = np.stack([np.bincount(owner, axis) for axis in corners.T], axis=1) / faces.sizes[:, None]
+    follower, ends = np.arange(1, len(corners) + 1), np.cumsum(faces.sizes)
+    follower[ends - 1] = ends - faces.sizes
+    points = corners + INSET * (middles[owner] - corners)
+    pairs = np.stack([np.arange(len(corners)), follower], axis=1)
+    return Lines(points, pairs, faces.colour, WIDTH / 2 * theme.stroke)
 
 
 def _with_markers(scene: Scene, control: Mesh, numbers: np.ndarray, theme: Theme, size: float) -> Scene:

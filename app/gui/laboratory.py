@@ -79,7 +79,7 @@ class Laboratory(QWidget):
             self._about = about
             self._fill(lab)
         names = [(titled(name), name) for name in shapes.SHAPES]
-        own = [] if lab.name in shapes.SHAPES else [(lab.name, lab.name)]
+        own = [] if lab.name in shapes.SHAPES else [(titled(lab.name), lab.name)]
         self.shape.show_values([*own, *names], lab.name)
         most = min(affordable(lab), MOST_LEVELS)
         self.levels.show_value(str(lab.levels), is_least=lab.levels <= 1, is_most=lab.levels >= most)

@@ -375,7 +375,7 @@ class Window(QMainWindow):
 
     def _details(self) -> Details:
         why = Section("Why is it here?", self.why, stretched=self.why)
-        tools = (Section("Shown", self.shown), self.editing, Section("Surface shows", self.surface), self.spectrum)
+        tools = (self.editing, Section("Shown", self.shown), Section("Surface shows", self.surface), self.spectrum)
         return Details(self.laboratory, self.knobs, why, self.notes, *tools, stretched=why)
 
     def _hairline(self) -> QWidget:
