@@ -356,6 +356,8 @@ def test_schemes_without_a_ring_are_told_in_a_sentence():
     sentence, table = panes(st.choose(lab("cube", "doo-sabin"), spectrum=True))
     assert "Doo-Sabin" in sentence.notes[0].text
     assert table.notes
+    (sentence,) = panes(st.choose(lab("hook"), spectrum=True))
+    assert "no vertices of any valence" in sentence.notes[0].text
 
 
 @pytest.mark.parametrize("name", ["cube", "octahedron", "plus-sign"])

@@ -43,7 +43,9 @@ def spectrum(state: State, view: View, theme: Theme) -> tuple[Pane, ...]:
     try:
         found = analysis(view.trace.scheme, n)
     except TopologyError as refusal:
-        return Pane(_sentence(str(refusal), theme), (0, 0, 1, 0.7)), Pane(table, (0, 0.7, 1, 0.3))
+        words = _sentence(str(refusal), theme)
+        counted = bool(_by_level(view.trace))  # polygons and nets have no vertices of any valence to count
+        return (Pane(words, (0, 0, 1, 0.7)), Pane(table, (0, 0.7, 1, 0.3))) if counted else (Pane(words),)
     low = max(ROW * (len(_by_level(view.trace)[:MOST_LEVELS]) + 1.6), 0.2)
     middle = max(ROW * (n // 2 + 3), 0.26)
     high = 1 - middle - low
@@ -213,11 +215,11 @@ def _values(found: Analysis, theme: Theme) -> tuple[list[Box], list[Note]]:
     """At the right of each mark what it is, where that does not reach the next one; lines stop there."""
     plain, blanks, words = theme.background, list[Box](), list[Note]()
     for k, e in enumerate(found.eigenvalues):
-        larger = [o for o in found.eigenvalues[:k] if o.mode == e.mode]
-        if e.value < 1 - LONG / AXIS and not any(-EQUAL < o.value - e.value < LONG / AXIS for o in larger):
-            x, text = AXIS * e.value + 0.12, said(e.value)
-            blanks.append(Box(x + LONG / 2, e.mode, ("",), plain, plain, plain, LONG, 0.8, line=0.0))
-            words.append(Note(x + 0.06, e.mode, text, theme.ink))
+        gaps = [AXIS * (o.value - e.value) for o in found.eigenvalues[:k] if o.mode == e.mode]
+        if e.value < 1 - LONG / AXIS and not any(-EQUAL < gap < LONG for gap in gaps):
+            x, wide = AXIS * e.value + 0.12, min([LONG, *(gap - 0.3 for gap in gaps if gap > 0)])
+            blanks.append(Box(x + wide / 2, e.mode, ("",), plain, plain, plain, wide, 0.8, line=0.0))
+            words.append(Note(x + 0.06, e.mode, said(e.value), theme.ink))
     return blanks, words
 
 
