@@ -7,6 +7,7 @@ mesh is smooth; pins of vertices stay.
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import compress
 from math import isqrt
 
 import numpy as np
@@ -169,7 +170,8 @@ def delete_faces(mesh: Mesh, faces: Iterable[int]) -> Mesh:
     if len(gone) == t.n_faces:
         raise TopologyError(f"without face {gone[-1]} no face would be left; keep one", faces=gone)
     _require_no_new_bow_ties(t, gone)
-    return _rebuilt(mesh, [loop for f, loop in enumerate(t.loops()) if f not in set(gone)])
+    stays = np.isin(np.arange(t.n_faces), gone, invert=True)
+    return _rebuilt(mesh, list(compress(t.loops(), stays)))
 
 
 def fill_hole(mesh: Mesh, edge: int) -> Mesh:
@@ -272,15 +274,16 @@ def _ears(face: int, loop: list[int], places: Floats, taken: set[frozenset[int]]
 def _rebuilt(mesh: Mesh, loops: Loops) -> Mesh:
     """The faces that ``loops`` say on the vertices they have, numbered in the old order, as sharp as they were."""
     t = mesh.surface
-    kept = np.unique(np.concatenate([np.array(loop, dtype=np.intp) for loop in loops]))
-    number = np.full(t.n_vertices, -1, dtype=np.intp)
-    number[kept] = np.arange(len(kept))
-    bare = Topology.from_faces([number[loop].tolist() for loop in loops], len(kept), boundary=Boundary.LITERAL)
+    sizes = np.array([len(loop) for loop in loops], dtype=np.intp)
+    kept, corners = np.unique([v for loop in loops for v in loop], return_inverse=True)
+    bare = Topology.from_corners(sizes, corners, len(kept), boundary=Boundary.LITERAL)
     sharp = {
-        frozenset(number[t.ends[e]].tolist()): float(t.edge_sharpness[e])
-        for e in np.flatnonzero((t.edge_sharpness > 0) & ~t.boundary)
+        (min(pair), max(pair)): value
+        for pair, value, rim in zip(t.ends.tolist(), t.edge_sharpness.tolist(), t.boundary.tolist(), strict=True)
+        if value and not rim
     }
-    edges = np.array([sharp.get(frozenset(pair), 0.0) for pair in bare.ends.tolist()])
+    ends = np.sort(kept[bare.ends], axis=1)
+    edges = np.array([sharp.get((a, b), 0.0) for a, b in ends.tolist()])
     pinned = replace(bare, edge_sharpness=edges, vertex_sharpness=t.vertex_sharpness[kept])
     return Mesh(pinned.with_boundary(Boundary.EDGE), mesh.points[kept])
 

@@ -55,6 +55,7 @@ class Editing(QWidget):
     def __init__(self, session: Session, banner: Banner) -> None:
         super().__init__()
         self._session, self._banner = session, banner
+        self._about: tuple[object, ...] = ()
         self.hint = QLabel(wordWrap=True)
         self.hint.setFont(type_face(12))
         self.sharpness = Sharpness(lambda value: self.wish(editing.sharpen, value))
@@ -84,6 +85,7 @@ class Editing(QWidget):
             self._session.do(transition, *args)
         except TopologyError as refusal:
             self._banner.say(sentence(str(refusal)))
+            self._about = ()
             self.show_state(self._session.state)
             return
         if said := editing.replaced_rule(before, self._session.state):
@@ -92,8 +94,10 @@ class Editing(QWidget):
     def show_state(self, state: State) -> None:
         is_open = bench.is_open(state) and state.lab is not None
         self.setVisible(is_open)
-        if not is_open or state.lab is None:
+        about = (state.lab, state.picked, state.at > 0, state.options.control)
+        if not is_open or state.lab is None or about == self._about:
             return
+        self._about = about
         t = state.lab.control.topology
         self.hint.setText(hint(state))
         self._show_buttons(state, t)
