@@ -70,7 +70,7 @@ def stage_shots(state: State, rate: int = RATE, pace: float = 1.0) -> Iterator[S
 def _played(state: State, begin: float, end: float, rate: int, pace: float) -> Iterator[Shot]:
     """What is between two stops."""
     n = max(round(rate * STAGE / pace), 2)
-    yield from (Shot(replace(state, at=begin + (end - begin) * k / n), STAGE / pace / n) for k in range(1, n))
+    yield from (Shot(replace(state, at=begin + (end - begin) * k / n), STAGE / pace / (n - 1)) for k in range(1, n))
 
 
 def gif(

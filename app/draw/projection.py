@@ -158,7 +158,8 @@ def _markers(groups: Iterable[Markers], view: _View) -> Iterator[str]:
         size = m.radius * view.per_unit(flat[:, 2])
         slack = view.slack + 1.8 * m.radius.max(initial=0.0)
         shown = view.depth.shows(flat, slack)
-        for (x, y, away), r, opacity, is_seen in zip(flat, size, m.opacity, shown, strict=True):
+        front = flat[:, 2] - m.radius  # of two at one place the larger is seen
+        for (x, y, _), away, r, opacity, is_seen in zip(flat, front, size, m.opacity, shown, strict=True):
             strength = float(opacity) if is_seen else HIDDEN * float(opacity)
             inner = "".join(_marker(m.shape, m.colour, float(r), view.axes))
             faint = f' opacity="{number(strength)}"' if strength < 1 else ""
