@@ -69,11 +69,12 @@ class Spectrum(QWidget):
     def _show_pull(self, rule: Rule, n: int) -> None:
         found, (way,) = PULL_RULES[rule.family], rule.values
         assert isinstance(way, int | Fraction)
-        self.slider.show_pull(
-            Track(FAMILIES[rule.family].parameters[0], found.smooth(n), found.specials(n)), Fraction(way)
-        )
+        track = Track(FAMILIES[rule.family].parameters[0], found.smooth(n), found.specials(n))
+        self.slider.show_pull(track, Fraction(way))
         beta = f", β = {Fraction(way) * Fraction(3, 8 * n)}" if found.regular == 6 else ""
-        self.way.setText("Regular: always all the way." if n == found.regular else f"Pull = <b>{way}</b>{beta}")
+        smooth = f"<br>C¹ between {decimals(float(track.smooth.least))} and {decimals(float(track.smooth.most))}"
+        is_regular = n == found.regular
+        self.way.setText("Regular: always all the way." if is_regular else f"Pull = <b>{way}</b>{beta}{smooth}")
 
     def _pull(self, way: Fraction) -> None:
         self._wish(bench.pull, way)
@@ -104,8 +105,8 @@ def _mode(k: int) -> str:
 
 
 def _verdict(c: Condition, muted: str) -> str:
-    holds = f"{'holds' if c.holds else 'fails'}: " if c.name == "C¹" else ""
-    return f'<p><b>{c.name}</b> {holds}{escape(c.word)}<br><span style="color:{muted}">{escape(c.why)}</span></p>'
+    holds = f" {'holds' if c.holds else 'fails'}: " if c.name == "C¹" else ": "
+    return f'<p><b>{c.name}</b>{holds}{escape(c.word)}<br><span style="color:{muted}">{escape(c.why)}</span></p>'
 
 
 def decimals(value: float) -> str:

@@ -118,6 +118,7 @@ def test_the_arrows_move_the_handle_that_has_the_focus_and_not_the_lesson(varied
 def test_the_allowed_interval_and_the_named_pulls_stand_on_the_track(varied):
     track = varied.spectrum.slider._track
     assert track.smooth == QUAD_PULLS.smooth(3)
+    assert all(decimals(float(end)) in varied.spectrum.way.text() for end in (track.smooth.least, track.smooth.most))
     assert [name for _, name in track.names] == ["simple", "bounded", "Catmull-Clark"]
     x, image = varied.spectrum.slider.x_of, varied.spectrum.slider.grab().toImage()
     accent = colour(THEMES[varied.session.state.options.theme].accent)
