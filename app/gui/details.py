@@ -1,4 +1,4 @@
-"""The panel at the right: what can be asked, changed and shown, in sections that fold away and stay as they were left."""
+"""The panel at the right: what can be asked, changed and shown, in sections that fold and stay as they were left."""
 
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtWidgets import QScrollArea, QWidget
