@@ -41,6 +41,15 @@ def test_the_wheel_lists_its_lessons_and_finds_its_fonts_and_references(unpacked
     assert {"references.bib", "fonts/OFL.txt"} <= set(assets.split())
 
 
+def test_the_wheel_writes_a_page_with_its_style_and_its_scripts(unpacked):
+    code = (
+        "from pathlib import Path; import app; from app.cli import main; main(['page', '14', '-o', 'cube.html']); "
+        "print(all(p.read_text() in Path('cube.html').read_text() for p in (Path(app.__file__).parent / 'page')"
+        ".glob('*.[cj]s*')))"
+    )
+    assert run(unpacked, code)[-1] == "True"
+
+
 def test_the_wheel_holds_the_three_packages_and_nothing_else(unpacked):
     folders = {p.name for p in unpacked.iterdir() if not p.name.endswith(".dist-info")}
     assert folders == {"app", "lessons", "subdivision"}

@@ -89,7 +89,8 @@ def _jobs(state: State, wish: Wish) -> Iterator[Job]:
         case "step":
             yield from _pictures(state, wish)
         case "lesson":
-            yield from (_film(each, wish) for each in _lessons(state, wish))
+            make = _page if wish.format == "html" else _film
+            yield from (make(each, wish) for each in _lessons(state, wish))
         case "level":
             yield from _meshes(state, wish)
         case _:
@@ -118,6 +119,17 @@ def _pictures(state: State, wish: Wish) -> Iterator[Job]:
                 path.write_bytes(paint(step, wish.size, wish.background))
 
             yield Job(file_name(each.lesson, wish.format, k), _called(step, k), write)
+
+
+def _page(state: State, wish: Wish) -> Job:
+    """The lesson as a page that plays by itself."""
+
+    def write(path: Path, part: Part) -> None:
+        from app.page import page_of
+
+        path.write_bytes(page_of(state, part))
+
+    return Job(file_name(state.lesson, wish.format), state.lesson.title, write)
 
 
 def _film(state: State, wish: Wish) -> Job:

@@ -40,6 +40,7 @@ FORMATS: Mapping[str, Format] = MappingProxyType({
     "pdf": Format("PDF, a page a step", ".pdf", "all", LOOKS),
     "handout": Format("PDF handout with notes", ".pdf", "all", ()),
     "pptx": Format("PowerPoint deck", ".pptx", "all", LOOKS),
+    "html": Format("Page for any browser", ".html", "lesson", ()),
     "mp4": Format("MP4 film", ".mp4", "lesson", (*LOOKS, "pace")),
     "gif": Format("GIF film", ".gif", "lesson", (*LOOKS, "pace")),
     "obj": Format("OBJ mesh", ".obj", "level", ("limit",)),

@@ -129,6 +129,7 @@ COMMANDS = (
     Command("save_picture", "Save picture as…", "File", ("Ctrl+E",), lambda w: w.save_picture()),
     Command("export", "Export…", "File", ("Ctrl+Shift+E",), lambda w: w.choose_export()),
     Command("copy", "Copy picture", "File", ("Ctrl+C",), lambda w: w.copy_picture()),
+    Command("page", "Export page…", "File", (), lambda w: w.choose_page()),
     Command("quit", "Quit", "File", ("Ctrl+Q",), lambda w: w.quit()),
     Command("undo", "Undo", "Edit", ("Ctrl+Z",), lambda w: w.session.undo(), repeats=True),
     Command("redo", "Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), lambda w: w.session.redo(), repeats=True),

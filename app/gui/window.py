@@ -315,6 +315,12 @@ class Window(QMainWindow):
         self.settings.setValue("folder_exports", str(Path(chosen) if wish.is_folder else Path(chosen).parent))
         return Path(chosen)
 
+    def choose_page(self) -> None:
+        """Ask where to, then write the lesson as a page that plays by itself."""
+        wish = Wish("html")
+        if path := self._ask_where(wish):
+            self.export_to(wish, path)
+
     def copy_picture(self) -> None:
         QGuiApplication.clipboard().setImage(saving.image(self.viewport.picture(), self.viewport.size()))
         self.banner.tell("The picture is on the clipboard.")

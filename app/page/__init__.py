@@ -4,6 +4,7 @@
 page; the scripts beside them only interpolate between those instants, and draw.
 """
 
+from collections.abc import Callable
 from pathlib import Path
 
 from app.figures import write
@@ -14,9 +15,9 @@ from app.state import State
 __all__ = ["page_of", "write_page_of"]
 
 
-def page_of(state: State) -> bytes:
+def page_of(state: State, progress: Callable[[float], None] = lambda done: None) -> bytes:
     """The page of a state's lesson, with its knobs, its options and the control points as they were dragged."""
-    return page(record(state))
+    return page(record(state, progress))
 
 
 def write_page_of(state: State, path: Path) -> int:

@@ -201,7 +201,7 @@ function printing() {
   steps().forEach((item, k) => {
     player.stop = k;
     player.going = RESTING;
-    const size = { wide: 960, tall: 460, density: 1.5, fine: 1, turn: REST, isDark: false };
+    const size = { wide: 800, tall: 460, density: 2, fine: 1, turn: REST, isDark: false, isPaper: true };
     drawPicture(canvas, player.shown, size);
     const image = document.createElement("img");
     image.className = "printed";

@@ -20,7 +20,7 @@ const pointOf = (wide, tall) => clamp(tall / 740, 0.5, Math.max(wide / 900, 0.62
  * `shown` has the panes and, for each of them, the parts that are there; `density` device pixels are a pixel;
  * `fine` is how finely surfaces are drawn, in parts of a device pixel.
  */
-function drawPicture(canvas, shown, { wide, tall, density, fine, turn, isDark }) {
+function drawPicture(canvas, shown, { wide, tall, density, fine, turn, isDark, isPaper }) {
   canvas.width = Math.round(wide * density);
   canvas.height = Math.round(tall * density);
   const pen = canvas.getContext("2d");
@@ -28,7 +28,7 @@ function drawPicture(canvas, shown, { wide, tall, density, fine, turn, isDark })
   const theme = isDark ? 1 : 0;
   const paint = (colour, change = (c) => c) => `rgb(${colour[theme].map((c) => Math.round(change(c))).join(" ")})`;
   pen.setTransform(density, 0, 0, density, 0, 0);
-  pen.fillStyle = paint(LOOKS.background);
+  pen.fillStyle = isPaper ? "#fff" : paint(LOOKS.background);
   pen.fillRect(0, 0, wide, tall);
   const areas = paneAreas(shown.panes, wide, tall, point);
   const relief = new Relief(wide, tall, fine * density);

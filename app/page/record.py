@@ -4,7 +4,7 @@ Nothing is decided here.  ``compose`` is asked for the picture at each instant, 
 one instant to another keeps the instants between; a player that interpolates shows what the program shows.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 from typing import Any, TypeAlias
@@ -60,16 +60,20 @@ class Record:
     captions: tuple[tuple[str, str], ...]
 
 
-def record(state: State) -> Record:
-    """The lesson of a state, with its options, from its first stop to its last."""
+def record(state: State, progress: Callable[[float], None] = lambda done: None) -> Record:
+    """The lesson of a state, with its options, from its first stop to its last; ``progress`` is told the part done."""
     light = start(state.lesson, replace(state.options, theme="light", presenting=False, blank=False))
     light = replace(light, edits=state.edits, lab=state.lab)
     tables = Tables(*_box(light))
     places = stops(light.lesson)
     stills = [at_stop(light, stop) for stop in places]
+    legs = [None]
+    for before, stop in pairwise(places):
+        legs.append(_leg(light, before, stop, tables))
+        progress(len(legs) / (len(places) + 1))
     told = {
         "stops": [_still(there, tables) for there in stills],
-        "legs": [None, *(_leg(light, before, stop, tables) for before, stop in pairwise(places))],
+        "legs": legs,
         "low": [float(f"{n:.9g}") for n in tables.low],
         "wide": [float(f"{n:.9g}") for n in tables.wide],
     }
