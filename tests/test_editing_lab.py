@@ -96,7 +96,7 @@ def test_the_sharper_an_edge_the_heavier_it_is_until_it_wears_off():
     widths = []
     for value in (0.5, 1, 3, 10):
         state = editing.sharpen(picked(CUBE, "edge", 2), value)
-        inked = [each for each in scene(state).lines if each.colour == LIGHT.ink]
+        inked = [each for each in scene(st.pick(state, None)).lines if each.colour == LIGHT.ink]
         assert [each.pairs.tolist() for each in inked] == [[shapes.cube().topology.ends[2].tolist()]]
         widths.append(inked[0].width)
     assert widths == sorted(set(widths))

@@ -9,13 +9,13 @@ from app.draw.theme import Theme
 from app.state import Picked, State
 from lessons.script import View
 from subdivision import Mesh, Polyline
-from subdivision.arrays import Mask
+from subdivision.arrays import Indices, Mask
 
 PICKED = "picked"
 """The name of its markers."""
 
-WIDTH = 11.0
-"""Of a picked edge, in logical points."""
+WIDTH, WIDER, MORE = 9.0, 1.6, 3.0
+"""Of a picked edge that was not drawn, in logical points; one that was becomes so many times as wide, and so much."""
 
 TINT = 0.5
 """How much of the selection's colour a picked face takes on."""
@@ -39,13 +39,29 @@ def selected(scene: Scene, control: Mesh, picked: Picked, theme: Theme, *, is_co
         return _with_markers(scene, control, numbers[numbers < t.n_vertices], theme, 1.5)
     if picked.kind == "edge":
         pairs = t.ends[numbers[numbers < t.n_edges]]
-        strokes = Lines(control.points, pairs, theme.selection, WIDTH * theme.stroke)
-        return _with_place(replace(scene, lines=(*scene.lines, strokes)), control, picked, theme)
+        return _with_place(_with_strokes(scene, control, pairs, theme), control, picked, theme)
     chosen = np.isin(np.arange(t.n_faces), numbers)
     if is_control:
         return replace(scene, faces=tuple(part for f in scene.faces for part in _parted(f, chosen[~t.hidden], theme)))
     faces = _only(Faces(control.points, t.face_sizes, t.origin, theme.selection), chosen)
     return replace(scene, lines=(*scene.lines, _outlined(faces, theme)))
+
+
+def _with_strokes(scene: Scene, control: Mesh, pairs: Indices, theme: Theme) -> Scene:
+    """The scene with some edges of the control object wider, in the selection's colour; drawn if they were not."""
+    chosen = set(map(tuple, pairs.tolist()))
+    rest: list[Lines] = []
+    found: list[Lines] = []
+    for lines in scene.lines:
+        is_net = len(lines.points) == len(control.points) and not lines.dashed
+        picked = np.array([is_net and pair in chosen for pair in map(tuple, lines.pairs.tolist())], dtype=np.bool_)
+        rest.append(replace(lines, pairs=lines.pairs[~picked]))
+        width = WIDER * lines.width + MORE * theme.stroke
+        found.append(Lines(lines.points, lines.pairs[picked], theme.selection, width))
+    found = [lines for lines in found if len(lines.pairs)] or [
+        Lines(control.points, pairs, theme.selection, WIDTH * theme.stroke)
+    ]
+    return replace(scene, lines=(*(lines for lines in rest if len(lines.pairs)), *found))
 
 
 def _outlined(faces: Faces, theme: Theme) -> Lines:
@@ -60,7 +76,7 @@ def _outlined(faces: Faces, theme: Theme) -> Lines:
     return Lines(points, pairs, faces.colour, WIDTH / 2 * theme.stroke)
 
 
-def _with_markers(scene: Scene, control: Mesh, numbers: np.ndarray, theme: Theme, size: float) -> Scene:
+def _with_markers(scene: Scene, control: Mesh, numbers: Indices, theme: Theme, size: float) -> Scene:
     radius = np.full(len(numbers), size * _radius(scene, control))
     none = np.full(len(numbers), -1)
     halo = Markers(
