@@ -1,7 +1,8 @@
 """Colours and strokes: one house palette, safe for colour-blind eyes [OI08]_, in three themes.
 
 A colour means one thing in every lesson: original black (white on dark), edge point orange,
-face point vermilion, centroid green, moved point blue, selection purple.
+face point vermilion, centroid green, moved point blue, selection purple.  Every two of them differ by 10 or
+more (CIEDE2000 [SWD05]_) in every theme, also as protanopes, deuteranopes and tritanopes see them [MOF09]_.
 """
 
 from collections.abc import Mapping
@@ -102,15 +103,15 @@ DARK = Theme(
     panel=rgb("#202328"),
     ink=rgb("#F2F2F0"),
     muted=rgb("#A9ABB0"),
-    accent=rgb("#56B4E9"),
+    accent=rgb("#5CA3ED"),
     surface=rgb("#4A4F58"),
     edge=rgb("#A3A9B3"),
     net=rgb("#8B919B"),
     faint=rgb("#4B5058"),
     selection=PURPLE,
     roles={
-        Role.ORIGINAL: rgb("#FFFFFF"), Role.EDGE: ORANGE, Role.FACE: rgb("#F0733A"),
-        Role.CENTROID: rgb("#1FC797"), Role.MOVED: rgb("#56B4E9"),
+        Role.ORIGINAL: rgb("#FFFFFF"), Role.EDGE: ORANGE, Role.FACE: rgb("#E65F37"),
+        Role.CENTROID: rgb("#25D699"), Role.MOVED: rgb("#5CA3ED"),
     },
     words={**WORDS, "original": "white", EXTRAORDINARY: "white"},
 )  # fmt: skip
