@@ -24,6 +24,7 @@ from app.gui.brush import paint
 from app.gui.grip import AXES, Grip
 from app.gui.look import colour
 from app.gui.narration import Narration
+from app.gui.pointer import Pointer
 from app.gui.pointing import nearest, part
 from app.gui.session import Session
 from app.state import Picked, Spot, State, drag, is_turned_only, look, pick, put_back, turn_view
@@ -65,6 +66,7 @@ class Viewport(QWidget):
         self._empty = QOpenGLWidget(self)  # makes the window one for OpenGL from the start, so that it never flickers
         self._flat = _Flat(self)
         self.narration = Narration(session, self)
+        self.pointer = Pointer(self)
         self._calm = QTimer(self, singleShot=True, interval=CALM)
         self._calm.timeout.connect(self._smooth)
         self._pause = QTimer(self, singleShot=True, interval=PAUSE)
@@ -110,6 +112,7 @@ class Viewport(QWidget):
 
     def show_state(self, state: State) -> None:
         before, self._state = self._state, state
+        self.pointer.present(is_on=state.options.presenting)
         if is_turned_only(before, state):
             self._look_again()
             return
@@ -155,6 +158,7 @@ class Viewport(QWidget):
         tall = self.narration.height_for(self.width(), self.window().height())
         self.narration.setGeometry(0, self.height() - tall, self.width(), tall)
         self._flat.setGeometry(self.rect())
+        self.pointer.setGeometry(self.rect())
         (self._plotter or self._empty).setGeometry(self.rect())
 
     def _paint_scenes(self) -> None:
@@ -214,6 +218,7 @@ class Viewport(QWidget):
             self._wheel(event)
             return True
         if isinstance(event, QMouseEvent):
+            self.pointer.moved(event.position())
             handle = {
                 QEvent.Type.MouseButtonPress: self._pressed,
                 QEvent.Type.MouseMove: self._moved,
@@ -223,6 +228,8 @@ class Viewport(QWidget):
             if handle is not None:
                 handle(event)
             return True
+        if kind == QEvent.Type.Leave:
+            self.pointer.left()
         if kind == QEvent.Type.Leave and not (self._is_pinned or self._state.options.basis):
             self._session.do(look, None)
         return kind in (QEvent.Type.Enter, QEvent.Type.Leave, QEvent.Type.Gesture)
