@@ -190,7 +190,9 @@ def step_on_fan(scheme: Scheme, n: int) -> tuple[Step, tuple[str, ...], dict[str
     fans = [fan(n, 4), fan(n, 3)]
     t = next((t for t in fans if scheme.accepts(t)), None)
     if t is None:
-        raise TopologyError(f"{scheme.title} has no vertices of any valence: {scheme.refuses(fans[0])}")
+        raise TopologyError(
+            f"{scheme.title} has no vertices of any valence: it subdivides polygons or nets, not meshes"
+        )
     quads = t.is_quadrilateral
     step = scheme.step(t)
     along = np.arange(n) * (4 if quads else 3)
