@@ -63,8 +63,13 @@ class ScenePainter:
             glyphs.show([m for m in scene.markers if m.shape is shape], solid=solid)
         self.clip(scene)
 
-    def look(self, camera: Camera) -> None:
-        """Stand where ``camera`` stands."""
+    def look(self, camera: Camera, window: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> None:
+        """Stand where ``camera`` stands.
+
+        Through a ``window`` only a part of the view is seen, of that part of its height; the window's middle is
+        right and up from the view's, in halves of the window.
+        """
+        right, above, part = window
         there = self.renderer.GetActiveCamera()
         there.SetPosition(*camera.position)
         there.SetFocalPoint(*camera.focal)

@@ -22,6 +22,7 @@ from app.draw.turned import turned
 from app.editing import extended
 from app.gui.brush import paint
 from app.gui.grip import AXES, Grip
+from app.gui.lens import MAGNIFICATION, WHOLE, enlarged, window, within
 from app.gui.look import colour
 from app.gui.narration import Narration
 from app.gui.pointer import Pointer
@@ -60,6 +61,7 @@ class Viewport(QWidget):
         self._grip: Grip | None = None
         self._axis: int | None = None
         self._target = QPointF()
+        self._lens: QPointF | None = None
         self._plotter: Any = None
         self._painters: list[Any] = []
         self._is_soft = True
@@ -129,6 +131,16 @@ class Viewport(QWidget):
         self._turned(REST)
         self._session.let_go()
 
+    @property
+    def is_magnified(self) -> bool:
+        """Whether the magnifier is over the picture."""
+        return self._lens is not None
+
+    def toggle_magnifier(self) -> None:
+        """Everything larger about the mouse, or as it was; what is under the mouse stays there."""
+        self._lens = None if self.is_magnified else self.pointer.at or QPointF(self.width() / 2, self._tall() / 2)
+        self._paint_scenes()
+
     def areas(self) -> list[Area]:
         """Where the panes are, in pixels of this widget."""
         return pane_areas(self._picture, self.width(), self._tall(), words=False)
@@ -147,7 +159,11 @@ class Viewport(QWidget):
     def paint_flat(self, painter: QPainter) -> None:
         """Everything of the picture that is not in space."""
         size = self.width(), self._tall()
+        if self._lens is not None:
+            painter.translate(self._lens * (1 - MAGNIFICATION))
+            painter.scale(MAGNIFICATION, MAGNIFICATION)
         paint(painter, overlay(self._picture, *size, cameras=self.cameras(), words=False))
+        painter.resetTransform()
         if self._state.options.blank:
             painter.fillRect(self.rect(), Qt.GlobalColor.black)
 
@@ -165,28 +181,47 @@ class Viewport(QWidget):
         if self._plotter is None:
             return
         self._plotter.set_background(self._picture.background)
-        width, height = self.width(), self.height()
-        panes = zip(self._picture.panes, self.areas(), self.cameras(), strict=True)
-        shown = [(pane.content, area, camera) for pane, area, camera in panes if camera is not None]
+        shown = self._shown()
+        height = self._tall() * self.devicePixelRatioF() * (MAGNIFICATION if self.is_magnified else 1.0)
         for painter, (content, area, camera) in zip(self._painters, shown, strict=False):
-            painter.paint(content, self._tall() * self.devicePixelRatioF())
+            painter.paint(content, height)
             painter.background(self._picture.background)
-            painter.place(area, width, height)
-            painter.look(camera)
-            painter.clip(content)
+            self._aim(painter, content, area, camera)
         for painter in self._painters[len(shown) :]:
             painter.hide()
         self._redraw()
+
+    def _shown(self) -> list[tuple[Scene, Area, Camera]]:
+        """The scenes, where they are, and from where they are seen."""
+        panes = zip(self._picture.panes, self.areas(), self.cameras(), strict=True)
+        return [
+            (pane.content, area, camera)
+            for pane, area, camera in panes
+            if isinstance(pane.content, Scene) and camera is not None
+        ]
+
+    def _aim(self, painter: Any, content: Scene, area: Area, camera: Camera) -> None:
+        """Look at a scene in its place, through the magnifier if it is there."""
+        seen: Area | None = area
+        through = WHOLE
+        if self._lens is not None:
+            large = enlarged(area, self._lens.x(), self._lens.y())
+            seen = within(large, self.width(), self._tall())
+            through = window(large, seen) if seen is not None else WHOLE
+        if seen is None:
+            painter.hide()
+            return
+        painter.place(seen, self.width(), self.height())
+        painter.look(camera, through)
+        painter.clip(content)
 
     def _turned(self, turn: Turn) -> None:
         self._session.do(turn_view, turn)
 
     def _look_again(self) -> None:
         """The same scenes from where the hand has turned them."""
-        scenes = [(p.content, c) for p, c in zip(self._picture.panes, self.cameras(), strict=True) if c is not None]
-        for painter, (content, camera) in zip(self._painters, scenes, strict=False):
-            painter.look(camera)
-            painter.clip(content)
+        for painter, (content, area, camera) in zip(self._painters, self._shown(), strict=False):
+            self._aim(painter, content, area, camera)
         self._redraw()
 
     def _redraw(self) -> None:
@@ -218,7 +253,7 @@ class Viewport(QWidget):
             self._wheel(event)
             return True
         if isinstance(event, QMouseEvent):
-            self.pointer.moved(event.position())
+            self._pointed(event.position())
             handle = {
                 QEvent.Type.MouseButtonPress: self._pressed,
                 QEvent.Type.MouseMove: self._moved,
@@ -233,6 +268,13 @@ class Viewport(QWidget):
         if kind == QEvent.Type.Leave and not (self._is_pinned or self._state.options.basis):
             self._session.do(look, None)
         return kind in (QEvent.Type.Enter, QEvent.Type.Leave, QEvent.Type.Gesture)
+
+    def _pointed(self, here: QPointF) -> None:
+        """The mouse is somewhere: the light and the magnifier go along."""
+        self.pointer.moved(here)
+        if self._lens is not None and here != self._lens:
+            self._lens = here
+            self._look_again()
 
     def _pressed(self, event: QMouseEvent) -> None:
         self._press = self._last = event.position()

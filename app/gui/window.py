@@ -147,6 +147,8 @@ class Window(QMainWindow):
                 return
         if state.options.blank:
             self.session.do(choose, blank=False)
+        elif self.viewport.is_magnified:
+            self.viewport.toggle_magnifier()
         elif state.options.presenting:
             self.toggle_presenting()
         elif self.contents.search.hasFocus():

@@ -1,12 +1,15 @@
 """Presenting: what the lecturer points and looks with, apart from the lesson, which it never changes."""
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+import lessons
 from app.gui.pointer import LIGHT
+from app.state import last, open_lesson
 
 pytestmark = pytest.mark.window
 Key = Qt.Key
@@ -91,3 +94,43 @@ def test_where_motion_is_not_wanted_the_light_has_no_trail(window, monkeypatch):
     move(window, 120, 80)
     assert not window.viewport.pointer._trail
     assert reddish(window, 120, 80) < 40
+
+
+# -- the magnifier ----------------------------------------------------------------------------
+
+
+def pixels(window):
+    """(rows, columns, 3): what the viewport shows above its caption, once it has come to rest."""
+    image = window.viewport.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    tall = window.viewport.narration.y()
+    return rows[:tall, : 3 * image.width()].reshape(tall, image.width(), 3).astype(int)
+
+
+def unlike(large, small, x, y):
+    """The part of places, two pixels apart, where ``large`` is not ``small`` magnified about a place."""
+    down, right = np.mgrid[2 : large.shape[0] - 2 : 2, 2 : large.shape[1] - 2 : 2]
+    expected = small[(y + (down - y) / 2).astype(int), (x + (right - x) / 2).astype(int)]
+    return float(np.mean(np.abs(large[down, right] - expected).max(axis=2) > 60))
+
+
+@pytest.mark.parametrize("id_", ["figure_14_cube", "figure_10_same_cost", "figure_03_t_split", "cube"])
+@pytest.mark.parametrize("place", [(0.3, 0.4), (0.9, 0.1)])
+def test_the_magnifier_shows_panes_and_flat_parts_twice_as_large_about_the_mouse(qtbot, window, id_, place):
+    if id_ != "cube":
+        window.session.do(open_lesson, lessons.find(id_))
+    window.session.do(last)
+    window.viewport.narration.hide()
+    qtbot.wait(400)
+    small = pixels(window)
+    x, y = round(place[0] * small.shape[1]), round(place[1] * small.shape[0])
+    move(window, 5, 5)
+    press(window, Key.Key_F3)
+    move(window, x, y)
+    qtbot.wait(400)
+    assert unlike(pixels(window), small, x, y) < 0.03
+    assert unlike(small, small, x, y) > 0.03
+    press(window, Key.Key_Escape)
+    qtbot.wait(400)
+    assert not window.viewport.is_magnified
+    assert np.mean(np.abs(pixels(window) - small).max(axis=2) > 60) < 0.001
