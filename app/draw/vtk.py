@@ -71,13 +71,14 @@ class ScenePainter:
         """
         right, above, part = window
         there = self.renderer.GetActiveCamera()
+        there.SetWindowCenter(right, above)
         there.SetPosition(*camera.position)
         there.SetFocalPoint(*camera.focal)
         there.SetViewUp(*camera.up)
-        there.SetViewAngle(camera.angle)
+        there.SetViewAngle(np.degrees(2 * np.arctan(part * np.tan(np.radians(camera.angle) / 2))))
         there.SetParallelProjection(camera.scale > 0)
         if camera.scale:
-            there.SetParallelScale(camera.scale)
+            there.SetParallelScale(part * camera.scale)
         self._over.SetActiveCamera(there)
 
     def clip(self, scene: Scene) -> None:
