@@ -9,6 +9,7 @@ import struct
 import subprocess
 import zlib
 from dataclasses import replace
+from functools import cache
 from hashlib import sha256
 
 import numpy as np
@@ -18,10 +19,12 @@ import lessons
 from app.cli import main
 from app.draw.compose import compose, said
 from app.draw.picture import Scene
+from app.draw.theme import THEMES
 from app.page import page_of
 from app.page.html import _mathematics, page
 from app.page.record import _knots, record
 from app.state import Options, at_stop, choose, start, stops
+from subdivision import Role
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 browser = pytest.mark.skipif(BROWSER is None, reason="no Chromium here: apt-get install chromium")
@@ -29,6 +32,11 @@ MOST = 1_500_000
 
 ALL = lessons.all_lessons()
 each = pytest.mark.parametrize("lesson", ALL, ids=lambda one: one.id)
+
+
+@cache
+def recorded_of(lesson):
+    return record(start(lesson))
 
 
 def written(lesson, **options):
@@ -66,7 +74,7 @@ def within(told, places):
 
 @each
 def test_every_lesson_becomes_a_page_below_a_megabyte_and_a_half(lesson):
-    recorded = record(start(lesson))
+    recorded = recorded_of(lesson)
     data = page(recorded)
     assert len(data) < MOST
     assert len(recorded.told["stops"]) == len(recorded.told["legs"]) == len(stops(lesson)) == len(recorded.captions)
@@ -122,7 +130,7 @@ def test_a_page_has_the_knobs_and_the_options_of_its_state():
 
 @each
 def test_light_and_dark_differ_by_a_palette_only(lesson):
-    recorded = record(start(lesson))
+    recorded = recorded_of(lesson)
     for stop in stops(lesson):
         light = at_stop(start(lesson), stop)
         shown, partner = compose(light), compose(choose(light, theme="dark"))
@@ -201,7 +209,7 @@ def test_a_page_that_cannot_be_written_is_told_in_a_sentence(tmp_path, capsys):
 
 def browsed(tmp_path, lesson, fragment, *switches):
     path = tmp_path / f"{lesson.id}.html"
-    path.write_bytes(page_of(start(lesson)))
+    path.write_bytes(page(recorded_of(lesson)))
     command = [
         BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--v=0",
         f"--user-data-dir={tmp_path / 'profile'}", "--window-size=1280,800", "--virtual-time-budget=20000",
@@ -221,6 +229,9 @@ def test_every_page_plays_in_a_browser_without_a_fault_or_a_request(lesson, tmp_
     assert report["faults"] == []
     assert report["requests"] == []
     assert report["backAtTheFirst"]
+    end, home, *_ = report["keys"]
+    assert end[1] == len(report["stops"]) - 1
+    assert home[1:] == [0, 0, False]
     state = start(lesson)
     captions = [said(there, there.now) for there in (at_stop(state, stop) for stop in stops(lesson))]
     assert len(report["stops"]) == len(captions)
@@ -239,14 +250,14 @@ def test_a_page_opens_at_the_step_that_its_address_names(tmp_path):
 
 
 @browser
-@pytest.mark.parametrize(("theme", "background"), [(1, (250, 248, 245)), (0, (23, 25, 29))])
-def test_a_page_wears_the_readers_theme(tmp_path, theme, background):
+@pytest.mark.parametrize(("name", "preferred"), [("light", 1), ("dark", 0)])
+def test_a_page_wears_the_readers_theme(tmp_path, name, preferred):
     from PIL import Image
 
     out = tmp_path / "seen.png"
     browsed(tmp_path, lessons.find("14"), "step=5", f"--screenshot={out}",
-            f"--blink-settings=preferredColorScheme={theme}")  # fmt: skip
-    pixels = np.asarray(Image.open(out).convert("RGB")).astype(int)
+            f"--blink-settings=preferredColorScheme={preferred}")  # fmt: skip
+    pixels = np.asarray(Image.open(out).convert("RGB")).astype(float)
+    background, moved = (255 * np.array(c) for c in (THEMES[name].background, THEMES[name].roles[Role.MOVED]))
     assert np.abs(pixels[2, 2] - background).max() <= 1
-    moved = (0, 114, 178) if theme else (86, 180, 233)
     assert (np.abs(pixels - moved).max(axis=2) < 12).sum() > 200

@@ -30,13 +30,15 @@ function drawCentred(pen, number, area, y, size, style) {
 
 /** The parts of a diagram, laid out for a pane of some size, as large as the pane here has room for. */
 function drawFlat(pen, parts, area, paint) {
-  const [wide, tall] = parts.find((part) => part.kind === "area").size;
+  const room = parts.find((part) => part.kind === "area");
+  if (!room) return; // a scene with nothing flat in it
+  const [wide, tall] = room.size;
   const scale = Math.min(area.wide / wide, area.tall / tall);
   pen.save();
   pen.translate(area.x + (area.wide - scale * wide) / 2, area.y + (area.tall - scale * tall) / 2);
   pen.scale(scale, scale);
   for (const part of parts) {
-    if (!part.opacity || part.opacity[0] <= 0) continue;
+    if (!(part.kind in FLAT_PARTS) || part.opacity[0] <= 0) continue;
     pen.globalAlpha = Math.min(part.opacity[0], 1);
     FLAT_PARTS[part.kind](pen, part, paint);
   }

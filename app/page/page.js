@@ -245,6 +245,10 @@ function testAll() {
   for (let k = 0; k < player.last; k += 1) player.back();
   player.settle();
   report.backAtTheFirst = player.stop === 0;
+  report.keys = ["End", "Home", "PageDown", "ArrowRight", "PageUp", " ", " ", "r"].map((key) => {
+    $("stage").dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    return [key, player.stop, player.going.way, player.isThrough];
+  });
   report.requests = performance.getEntriesByType("resource").map((entry) => entry.name);
   report.faults = faults;
   const found = document.createElement("pre");

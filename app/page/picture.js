@@ -42,7 +42,7 @@ function drawPicture(canvas, shown, { wide, tall, density, fine, turn, isDark, i
     pen.rect(area.x, area.y, area.wide, area.tall);
     pen.clip();
     if (sights[k]) drawScene(pen, shown.parts[k], sights[k], relief, point, paint);
-    else drawFlat(pen, shown.parts[k], area, paint);
+    drawFlat(pen, shown.parts[k], area, paint);
     pen.restore();
     const size = Math.max(LOOKS.type * point, LEAST_TYPE);
     if ("title" in pane) drawCentred(pen, pane.title, area, area.y - 0.4 * size, size, paint(LOOKS.muted));

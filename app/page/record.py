@@ -173,6 +173,7 @@ def _colours(picture: Picture) -> Iterator[Colour]:
         if isinstance(content, Scene):
             for group in (content.faces, content.lines, content.markers, content.labels):
                 yield from (each.colour for each in group)
+            yield from content.bar.colours if content.bar is not None else ()
         else:
             yield from (colour for box in content.boxes for colour in (box.fill, box.ink, box.stroke))
             yield from (each.colour for group in (content.links, content.notes, content.dots) for each in group)
@@ -202,19 +203,26 @@ def _panes(picture: Picture, tables: Tables) -> list[list[Part]]:
     """The parts of every pane."""
     flat = _flat(_bare(picture), tables)
     return [
-        list(_scene(pane.content, tables)) if isinstance(pane.content, Scene) else flat[k]
+        [*_scene(pane.content, tables), *_laid_over(flat[k])] if isinstance(pane.content, Scene) else flat[k]
         for k, pane in enumerate(picture.panes)
     ]
 
 
+def _laid_over(flat: list[Part]) -> list[Part]:
+    """What is flat in a scene's pane, such as a bar of colours; nothing where there is only the pane's area."""
+    return flat if len(flat) > 1 else []
+
+
 def _bare(picture: Picture) -> Picture:
-    """The picture with no words but title and caption, and with nothing in its scenes."""
+    """The picture with no words but title and caption, and with nothing in its scenes that is in space."""
     panes = tuple(replace(pane, title="", reading="", content=_empty(pane.content)) for pane in picture.panes)
     return replace(picture, panes=panes, legend=(), corner="", formula="")
 
 
 def _empty(content: Scene | Diagram) -> Scene | Diagram:
-    return Scene(content.camera) if isinstance(content, Scene) else content
+    if isinstance(content, Diagram):
+        return content
+    return Scene(content.camera, bar=content.bar, remark=content.remark)
 
 
 def _scene(scene: Scene, tables: Tables) -> Iterator[Part]:

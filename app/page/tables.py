@@ -70,8 +70,8 @@ class Tables:
 
     @property
     def palette(self) -> list[tuple[str, str]]:
-        """Every colour in the light and in the dark theme."""
-        return [(code(colour), code(self.dark[colour])) for colour in self._colours]
+        """Every colour in the light and in the dark theme, the same one where no theme changes it."""
+        return [(code(colour), code(self.dark.get(colour, colour))) for colour in self._colours]
 
     @property
     def texts(self) -> list[Mapping[str, Any]]:
