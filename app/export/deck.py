@@ -1,6 +1,7 @@
 """Steps as a PowerPoint deck: one a slide, its words as words, the notes for the speaker."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from io import BytesIO
 from typing import Any
 
@@ -24,8 +25,8 @@ TITLE_ONLY = 5
 ABOVE = 0.97
 """From the top of a box of text to its first baseline, relative to the size of Inter."""
 
-SPARE = 0.3
-"""How much wider than in Inter a line may become."""
+WIDER, SPARE = 0.18, 0.3
+"""How much wider than in Inter a line is in the widest of usual typefaces, and how much more room its box has."""
 
 FINE = 3.0
 """Formulas have so many pixels for one of the picture's."""
@@ -65,13 +66,25 @@ def _slide(made: Any, picture: Picture, notes: str, size: tuple[int, int], unit:
     if counts := [each for each in plain if each.text == picture.corner]:
         _words(slide.shapes.add_textbox(0, 0, 0, 0), counts, unit)
     if caption := [each for each in plain if each not in counts]:
-        is_beside = len(caption) == 1 and any(each.align == "left" for each in others if each not in plain)
-        _words(slide.shapes.add_textbox(0, 0, 0, 0), caption, unit, "right" if is_beside else "")
+        is_beside = any(each.align == "left" for each in others if each not in plain)
+        held = [_fitting(each, caption, size[0], is_beside=is_beside) for each in caption]
+        _words(slide.shapes.add_textbox(0, 0, 0, 0), held, unit)
     for each in others:
         if each not in plain:
             _formula(slide, each, unit)
     if notes:
         slide.notes_slide.notes_text_frame.text = notes.replace("$", "")
+
+
+def _fitting(line: Text, lines: Sequence[Text], width: float, *, is_beside: bool) -> Text:
+    """A line of the caption, held at its end if a formula follows; smaller if another typeface would not fit the slide.
+
+    Lines that are held at their end all end where the longest does.
+    """
+    boxes = [extent(each) for each in lines]
+    end, wide = max(box[0] + box[2] for box in boxes), max(box[2] for box in boxes)
+    size = line.size * min(1.0, (end if is_beside else width) / ((1 + WIDER) * wide))
+    return replace(line, x=end, align="right", size=size) if is_beside else replace(line, size=size)
 
 
 def _view(slide: Any, picture: Picture, size: tuple[int, int], top: int, bottom: int, unit: float) -> None:
@@ -83,23 +96,22 @@ def _view(slide: Any, picture: Picture, size: tuple[int, int], top: int, bottom:
     _describe(shape, picture.caption)
 
 
-def _words(shape: Any, lines: Sequence[Text], unit: float, align: str = "") -> None:
+def _words(shape: Any, lines: Sequence[Text], unit: float) -> None:
     """Lines of type in a box that never breaks them again, whatever typeface they are shown in."""
     from pptx.enum.text import MSO_ANCHOR, MSO_AUTO_SIZE, PP_ALIGN
     from pptx.util import Pt
 
     head = lines[0]
     boxes = [extent(each) for each in lines]
-    align = align or head.align
     left, wide = min(box[0] for box in boxes), max(box[2] for box in boxes)
-    shape.left, shape.width = _emu(left - ANCHOR[align] * SPARE * wide, unit), _emu((1 + SPARE) * wide, unit)
+    shape.left, shape.width = _emu(left - ANCHOR[head.align] * SPARE * wide, unit), _emu((1 + SPARE) * wide, unit)
     shape.top, shape.height = _emu(head.y - ABOVE * head.size, unit), _emu(len(lines) * LINE * head.size, unit)
     frame = shape.text_frame
     frame.word_wrap, frame.auto_size, frame.vertical_anchor = False, MSO_AUTO_SIZE.NONE, MSO_ANCHOR.TOP
     frame.margin_left = frame.margin_right = frame.margin_top = frame.margin_bottom = 0
     paragraph = frame.paragraphs[0]
     paragraph.text = "\v".join(each.text for each in lines)
-    paragraph.alignment = {"left": PP_ALIGN.LEFT, "center": PP_ALIGN.CENTER, "right": PP_ALIGN.RIGHT}[align]
+    paragraph.alignment = {"left": PP_ALIGN.LEFT, "center": PP_ALIGN.CENTER, "right": PP_ALIGN.RIGHT}[head.align]
     paragraph.line_spacing = 1.0 if len(lines) == 1 else Pt(LINE * head.size * unit * 72)
     for run in paragraph.runs:
         run.font.name, run.font.size, run.font.bold = FAMILY, Pt(head.size * unit * 72), head.bold
