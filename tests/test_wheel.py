@@ -41,11 +41,12 @@ def test_the_wheel_lists_its_lessons_and_finds_its_fonts_and_references(unpacked
     assert {"references.bib", "fonts/OFL.txt"} <= set(assets.split())
 
 
-def test_the_wheel_writes_a_page_with_its_style_and_its_scripts(unpacked):
+def test_the_wheel_writes_a_page_with_its_style_and_its_scripts(unpacked, tmp_path):
+    out = str(tmp_path / "cube.html")
     code = (
-        "from pathlib import Path; import app; from app.cli import main; main(['page', '14', '-o', 'cube.html']); "
-        "print(all(p.read_text() in Path('cube.html').read_text() for p in (Path(app.__file__).parent / 'page')"
-        ".glob('*.[cj]s*')))"
+        f"from pathlib import Path; import app; from app.cli import main; main(['page', '14', '-o', {out!r}]); "
+        f"page = Path({out!r}).read_text(); "
+        "print(all(p.read_text() in page for p in (Path(app.__file__).parent / 'page').glob('*.[cj]s*')))"
     )
     assert run(unpacked, code)[-1] == "True"
 
