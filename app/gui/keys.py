@@ -114,6 +114,7 @@ COMMANDS = (
     Command("blank", "Blank the picture", "Present", (".", "B"), _wish(toggle, "blank"), lambda o: o.blank),
     Command("laser", "Laser pointer", "Present", ("F2",), lambda w: w.viewport.pointer.toggle()),
     Command("magnifier", "Magnify at the pointer", "Present", ("F3",), lambda w: w.viewport.toggle_magnifier()),
+    Command("presenter", "Presenter's window", "Present", ("F4",), lambda w: w.toggle_presenter()),
     Command("escape", "Leave full screen, close what is open", "Present", ("Esc",), lambda w: w.escape()),
     *(_switch(option, name, key) for option, name, key in SHOWN),
     _switch("lattice", "Vectors of a box spline", "D"),

@@ -27,7 +27,7 @@ MENUS = (
     ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "more", "less",
                 "more_2", "less_2", "", "through",
                 "@Speed", "", "search", "@Lessons")),
-    ("Present", ("present", "blank", "", "laser", "magnifier")),
+    ("Present", ("present", "presenter", "blank", "", "laser", "magnifier")),
     ("Help", ("keys", "about")),
 )  # fmt: skip
 """Title -> commands; a gap is a line, and ``@`` begins a menu inside."""

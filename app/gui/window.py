@@ -42,6 +42,7 @@ from app.gui.look import GRID, colour, dress, icon, line_of, system_theme
 from app.gui.notes import Notes
 from app.gui.opening import Opener
 from app.gui.parts import Section, column
+from app.gui.presenter import Presenter, spare_screen
 from app.gui.session import Session
 from app.gui.sheets import About, Keys
 from app.gui.shown import Shown
@@ -90,7 +91,7 @@ class Window(QMainWindow):
         self.editing = Editing(session, self.banner)
         self.spectrum = Spectrum(session, self.laboratory.wish)
         self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
-        self.surface = Surface(session)
+        self.surface, self.presenter = Surface(session), Presenter(session)
         self._build()
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
         self.opener = Opener(session, self.banner, self.opened)
@@ -100,6 +101,7 @@ class Window(QMainWindow):
         self._views = (
             self.viewport, self.banner, self.timeline, self.contents,
             self.laboratory, self.editing, self.spectrum, self.knobs, self.shown, self.surface, self.why, self.notes,
+            self.presenter,
         )  # fmt: skip
         self._restore()
         session.changed.connect(self.show_state)
@@ -151,6 +153,8 @@ class Window(QMainWindow):
             self.viewport.toggle_magnifier()
         elif state.options.presenting:
             self.toggle_presenting()
+        elif self.presenter.isActiveWindow():
+            self.presenter.close()
         elif self.contents.search.hasFocus():
             self.leave_search()
         elif state.picked is not None:
@@ -159,6 +163,13 @@ class Window(QMainWindow):
     def toggle_presenting(self) -> None:
         is_on = not self.session.state.options.presenting
         self.session.do(choose, presenting=is_on, blank=False)
+
+    def toggle_presenter(self) -> None:
+        """Show or close the presenter's window."""
+        if self.presenter.isVisible():
+            self.presenter.close()
+        else:
+            self.presenter.open(self)
 
     def toggle_keys(self) -> None:
         self.sheets[1].hide()
@@ -424,7 +435,10 @@ class Window(QMainWindow):
         QTimer.singleShot(0, self._show_again)
 
     def _show_again(self) -> None:
+            if spare_screen(self) is not None:
+                self.presenter.open(self)
         self.viewport.show_state(self.session.state)
+            self.presenter.close()
 
     def _restore(self) -> None:
         """As large as last time, or as a lecture likes it; never larger than the screen."""
@@ -505,3 +519,4 @@ class Window(QMainWindow):
         self.viewport.close_vtk()
         saving.close()
         super().closeEvent(event)
+        self.presenter.close()

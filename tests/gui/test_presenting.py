@@ -3,13 +3,16 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QImage, QMouseEvent
+from PySide6.QtGui import QGuiApplication, QImage, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 import lessons
+from app.gui import presenter as presenting
+from app.gui import window as windows
 from app.gui.pointer import LIGHT
-from app.state import last, open_lesson
+from app.gui.presenter import spoken_time
+from app.state import choose, last, open_lesson, skip
 
 pytestmark = pytest.mark.window
 Key = Qt.Key
@@ -134,3 +137,71 @@ def test_the_magnifier_shows_panes_and_flat_parts_twice_as_large_about_the_mouse
     qtbot.wait(400)
     assert not window.viewport.is_magnified
     assert np.mean(np.abs(pixels(window) - small).max(axis=2) > 60) < 0.001
+
+
+# -- the presenter's window -------------------------------------------------------------------
+
+
+@pytest.fixture
+def presenter(qtbot, window):
+    """The presenter's window, open beside the window."""
+    window.session.do(choose, speed=8.0)
+    press(window, Key.Key_F4)
+    qtbot.waitExposed(window.presenter)
+    return window.presenter
+
+
+def test_the_presenter_reads_the_caption_the_notes_and_what_comes_next(window, presenter):
+    window.session.do(open_lesson, lessons.find("figure_14_cube"))
+    told = window.session.state.lesson
+    assert presenter.lesson.text() == told.title
+    assert presenter.caption.text() == told.beats[0].text
+    assert told.beats[0].notes in presenter.notes.text()
+    assert presenter.step.text().startswith("Step 1 of ")
+    ahead = presenter.following.text()
+    window.session.do(skip, 1)
+    assert ahead.endswith(presenter.caption.text())
+    assert presenter.step.text().startswith("Step 2 of ")
+    window.session.do(last)
+    assert presenter.following.text() == "The lesson ends here. Next: " + lessons.find("figure_15_plus_sign").title
+    _, now, _, total = presenter.step.text().split()
+    assert now == total
+
+
+def test_all_keys_work_in_the_presenters_window(qtbot, window, presenter):
+    presenter.activateWindow()
+    qtbot.waitUntil(presenter.isActiveWindow, timeout=3000)
+    QTest.keyClick(presenter, Key.Key_PageDown)
+    qtbot.waitUntil(lambda: window.session.state.at == 1 and not window.session.state.is_playing, timeout=3000)
+    assert presenter.step.text() == f"Step {presenting.step_of(window.session.state)[0]} of 8"
+    QTest.keyClick(presenter, Key.Key_Period)
+    assert window.session.state.options.blank
+    QTest.keyClick(presenter, Key.Key_Escape)
+    assert not window.session.state.options.blank
+    QTest.keyClick(presenter, Key.Key_Escape)
+    assert not presenter.isVisible()
+    assert window.isVisible()
+
+
+def test_the_time_that_has_passed_starts_again(qtbot, presenter):
+    qtbot.waitUntil(lambda: presenter.elapsed.text() == "0:01", timeout=3000)
+    presenter.again.click()
+    assert presenter.elapsed.text() == "0:00"
+    assert ":" in presenter.clock.text()
+    assert [spoken_time(s) for s in (9, 75, 3599, 3600, 7325)] == ["0:09", "1:15", "59:59", "1:00:00", "2:02:05"]
+
+
+@pytest.mark.parametrize("has_second", [False, True])
+def test_presenting_opens_it_on_a_second_screen_and_leaving_closes_it(window, monkeypatch, has_second):
+    other = QGuiApplication.primaryScreen() if has_second else None
+    for module in (presenting, windows):
+        monkeypatch.setattr(module, "spare_screen", lambda _: other)
+    press(window, Key.Key_F5)
+    assert window.presenter.isVisible() == has_second
+    press(window, Key.Key_F5)
+    assert not window.presenter.isVisible()
+
+
+def test_it_closes_with_the_window(window, presenter):
+    window.close()
+    assert not presenter.isVisible()
