@@ -429,16 +429,16 @@ class Window(QMainWindow):
         if is_on:
             self.viewport.setFocus()
             self.setWindowState(was | Qt.WindowState.WindowFullScreen)
+            if spare_screen(self) is not None:
+                self.presenter.open(self)
         else:
+            self.presenter.close()
             self._splitter.setSizes(sizes)
             self.setWindowState(was)
         QTimer.singleShot(0, self._show_again)
 
     def _show_again(self) -> None:
-            if spare_screen(self) is not None:
-                self.presenter.open(self)
         self.viewport.show_state(self.session.state)
-            self.presenter.close()
 
     def _restore(self) -> None:
         """As large as last time, or as a lecture likes it; never larger than the screen."""
@@ -516,7 +516,7 @@ class Window(QMainWindow):
         QGuiApplication.styleHints().colorSchemeChanged.disconnect(self._follow_system)
         QApplication.instance().removeEventFilter(self._guard)  # type: ignore[union-attr]
         self._keep()
+        self.presenter.close()
         self.viewport.close_vtk()
         saving.close()
         super().closeEvent(event)
-        self.presenter.close()
