@@ -41,8 +41,8 @@ FORMAT = "subdivision-studio session"
 VERSION = 1
 SUFFIX = ".subdivision"
 
-OF_THE_ROOM = ("presenting", "blank")
-"""Options that belong to where one is, not to the picture: they stay as they are."""
+OF_THE_ROOM = ("presenting", "blank", "reduced_motion")
+"""Options that belong to where and who one is, not to the picture: they stay as they are."""
 
 CHOICES: Mapping[str, Mapping[str, Any]] = {"theme": THEMES, "across": ACROSS, "surface_shows": SHOWS}
 """What an option in words may be."""

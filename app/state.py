@@ -81,6 +81,8 @@ class Options:
     theme: str = "light"
     speed: float = 1.0
     through: bool = False
+    reduced_motion: bool = False
+    """Stages fade into one another instead of moving."""
     presenting: bool = False
     blank: bool = False
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from app.draw.compose import compose
+from app.draw.fading import faded
 from app.draw.picture import Picture, Scene
 from app.draw.turned import turned
 from app.state import State
@@ -11,7 +11,7 @@ from app.turn import REST, Turn
 
 def seen(state: State) -> Picture:
     """The picture of a state as the hand has turned it."""
-    return from_there(compose(state), state.turn)
+    return from_there(faded(state), state.turn)
 
 
 def from_there(picture: Picture, turn: Turn) -> Picture:

@@ -28,7 +28,7 @@ from app.gui.look import system_theme
 from app.gui.session import Session
 from app.gui.window import NAME, Window
 from app.log import LOG, keep_log
-from app.state import Options, State, open_lesson, start
+from app.state import Options, State, choose, open_lesson, start
 from lessons import all_lessons
 from lessons.script import Lesson
 
@@ -63,7 +63,8 @@ def run(
         return _refuse(NO_OPENGL)
     log = keep_log()
     settings = settings_file()
-    state = opening(first_state(lesson, step, theme or settings_theme(settings), as_caption))
+    state = first_state(lesson, step, theme or settings_theme(settings), as_caption)
+    state = opening(choose(state, reduced_motion=settings.value("reduced_motion", "off") == "on"))
     window = Window(Session(state), settings)
     catch_everything(window, log)
     autosave = Autosave(window.session, folder())

@@ -123,6 +123,8 @@ COMMANDS = (
     *(_across(k, across) for k, across in enumerate(ACROSS, 1)),
     Command("contents", "Lessons panel", "View", ("F9",), lambda w: w.toggle_panel("contents"), icon="contents"),
     Command("shown", "Details panel", "View", ("F10",), lambda w: w.toggle_panel("details"), icon="shown"),
+    Command("reduced_motion", "Reduced motion", "View", ("Ctrl+M",), lambda w: w.toggle_reduced_motion(),
+            lambda o: o.reduced_motion),
     Command("camera", "Reset the view", "View", ("R",), lambda w: w.viewport.reset_camera()),
     Command("open", "Open…", "File", ("Ctrl+O",), lambda w: w.choose_file()),
     Command("save", "Save session", "File", ("Ctrl+S",), lambda w: w.save_session()),

@@ -21,7 +21,7 @@ MENUS = (
     ("File", ("open", "@Recent", "", "save", "save_as", "copy_link", "paste_link", "", "save_picture", "copy", "export",
               "page", "", "quit")),
     ("Edit", ("undo", "redo", "", *(edit[0] for edit in EDITS), "", *(turn[0] for turn in SHARPNESS))),
-    ("View", ("@Theme", "", *(option for option, _, _ in SHOWN), "",
+    ("View", ("@Theme", "reduced_motion", "", *(option for option, _, _ in SHOWN), "",
               *(option for option, _, _ in SWITCHES), "surface_next", "", *(f"across_{k}" for k in ACROSS), "",
               "camera", "contents", "shown")),
     ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "more", "less",

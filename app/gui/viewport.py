@@ -12,7 +12,7 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
 from app import bench
-from app.draw.compose import compose
+from app.draw.fading import faded
 from app.draw.layout import fitted, overlay, pane_areas, part_at
 from app.draw.picture import Camera, Picture, Scene
 from app.draw.primitives import Area
@@ -46,7 +46,7 @@ TRACK = 4.0
 
 
 class Viewport(QWidget):
-    """Shows ``compose(state)``; the mouse turns it and points at its points."""
+    """Shows ``faded(state)``; the mouse turns it and points at its points."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -54,7 +54,7 @@ class Viewport(QWidget):
         self.setMinimumSize(320, 240)
         self._session = session
         self._state = session.state
-        self._picture: Picture = compose(session.state)
+        self._picture: Picture = faded(session.state)
         self._press: QPointF | None = None
         self._last = QPointF()
         self._is_drag = self._is_pinned = False
@@ -120,7 +120,7 @@ class Viewport(QWidget):
             return
         if state.focus is None:
             self._is_pinned = False
-        self._picture = compose(state)
+        self._picture = faded(state)
         self.narration.show_state(state)
         self._arrange()
         self._paint_scenes()

@@ -201,6 +201,12 @@ class Window(QMainWindow):
         self.settings.setValue("theme", name)
         self.session.do(choose, theme=system_theme() if name == "system" else name)
 
+    def toggle_reduced_motion(self) -> None:
+        """Let stages fade instead of moving, or move again; the window remembers it."""
+        is_on = not self.session.state.options.reduced_motion
+        self.settings.setValue("reduced_motion", "on" if is_on else "off")
+        self.session.do(choose, reduced_motion=is_on)
+
     def choose_file(self) -> None:
         patterns = " ".join(f"*{suffix}" for suffix in OPENABLE)
         names = f"Meshes and sessions ({patterns})"
