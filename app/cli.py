@@ -24,6 +24,9 @@ NAMES = {s.name: s for s in SCHEMES}
 MOST_NAMES = 12
 """More points of the same weight are named by the first and the last."""
 
+MOST_LEVELS = 64
+"""However small, a mesh has more faces than that long before."""
+
 MOST_FACES = 20_000_000
 """A mesh file beyond this is gigabytes; nobody asks for one on purpose."""
 
@@ -403,9 +406,19 @@ def _turned(chosen: list[Lesson], settings: dict[str, int]) -> list[Lesson]:
 
 
 def _require_room(control: Mesh, scheme: Scheme, levels: int) -> None:
-    faces = scheme.faces_after(control.surface, levels)
-    if faces > MOST_FACES:
-        raise Fault(f"{levels} levels would make {faces:,} faces; choose fewer levels (at most {MOST_FACES:,} faces)")
+    """Ask for no more levels than fit; how many faces each makes is known before it is made."""
+    for level in range(min(levels, MOST_LEVELS) + 1):
+        if (faces := scheme.faces_after(control.surface, level)) > MOST_FACES:
+            raise Fault(_too_deep(levels, level, faces))
+
+
+def _too_deep(levels: int, level: int, faces: int) -> str:
+    """What to choose instead of ``levels``, where ``level`` is the first that does not fit."""
+    if level == 0:
+        return f"the mesh has {faces:,} faces, and {MOST_FACES:,} are made at most; choose a smaller mesh"
+    until = "" if level == levels else f" at level {level} already"
+    fitting = f"at most {level - 1}, for {MOST_FACES:,} faces are made at most"
+    return f"{levels} levels would make {faces:,} faces{until}; choose fewer levels ({fitting})"
 
 
 def _listed(names: list[str]) -> str:

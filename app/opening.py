@@ -6,15 +6,21 @@ from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
+import numpy as np
+
 from app.bench import put
 from app.keeping import SUFFIX, read, taken_up
 from app.lab import lab_of, lesson_of
 from app.link import followed, is_link
 from app.state import State
-from subdivision import files
+from subdivision import Mesh, files
+from subdivision.files.faults import printable
 
 OPENABLE = (*files.READABLE, SUFFIX)
 """Suffixes of what can be opened."""
+
+FARTHEST = 1e15
+"""Coordinates beyond it cannot be drawn: pictures are made in single precision, which squares them."""
 
 Opening: TypeAlias = Callable[[State], State]
 
@@ -33,9 +39,20 @@ def opening(path: Path) -> Opening:
     """
     if path.suffix.lower() == SUFFIX:
         return partial(taken_up, other=read(path))
-    lab = lab_of(files.read(path), path.stem)
+    mesh = files.read(path)
+    _require_near(mesh, path)
+    lab = lab_of(mesh, path.stem)
     lesson_of(lab)  # here, where perhaps nobody waits for a picture
     return partial(put, lab=lab)
+
+
+def _require_near(mesh: Mesh, path: Path) -> None:
+    farthest = float(np.abs(mesh.points).max(initial=0.0))
+    if farthest > FARTHEST:
+        raise files.FileError(
+            f"{printable(path.name)}: a coordinate is {farthest:.3g}, too far away to be drawn; "
+            f"scale the mesh down to {FARTHEST:g} at most"
+        )
 
 
 def meant(name: str) -> tuple[Opening, Path | None] | None:

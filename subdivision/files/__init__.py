@@ -47,10 +47,7 @@ def read(path: AnyPath) -> Mesh:
     try:
         reader = _chosen(_READERS, path, "read")
         _require_file(path)
-        data = path.read_bytes()
-        if not data.strip():
-            raise Fault("the file is empty", "export the mesh again")
-        return mesh_of(reader(data))
+        return mesh_of(reader(_bytes_of(path)))
     except Fault as fault:
         raise fault.in_file(path) from None
     except (OSError, MemoryError) as error:
@@ -90,6 +87,13 @@ def _chosen(formats: Mapping[str, _Format], path: Path, done: str) -> _Format:
     raise Fault(
         f"files ending in '{suffix}' are not {done}" if suffix else "the name has no suffix", f"use one of {known}"
     )
+
+
+def _bytes_of(path: Path) -> bytes:
+    data = path.read_bytes()
+    if not data or data.isspace():
+        raise Fault("the file is empty", "export the mesh again")
+    return data
 
 
 def _require_no_folder(path: Path) -> None:

@@ -92,11 +92,12 @@ def _require_faces(content: Content, n: int) -> None:
         raise Fault(f"it has {held}", "export a polygon mesh with its faces")
     if (small := np.flatnonzero(content.sizes < 3)).size:
         f = int(small[0])
-        raise Fault(
-            f"this face has {_counted(int(content.sizes[f]), 'corner', 'corners')}",
-            "give it three or more, or remove it",
-            content.place(f),
-        )
+        raise too_few_corners(int(content.sizes[f]), content.place(f))
+
+
+def too_few_corners(n: int, place: str) -> Fault:
+    """The fault of a face that is none."""
+    return Fault(f"this face has {_counted(n, 'corner', 'corners')}", "give it three or more, or remove it", place)
 
 
 def _in_the_files_words(error: TopologyError, content: Content) -> Fault:

@@ -5,15 +5,17 @@ vertex, face nor one of these tags is passed over: texture coordinates, normals,
 materials, free-form curves, and the tags for boundaries and holes, which are the user's choice.
 """
 
+from array import array
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from itertools import repeat
 
 import numpy as np
 
 from subdivision.arrays import Indices
 from subdivision.files.content import Content
 from subdivision.files.faults import Fault, quoted
-from subdivision.files.text import coordinates, number, rows, text_lines, vertex_numbers, whole
+from subdivision.files.text import Faces, Vertices, number, rows, text_lines, whole
 from subdivision.rows import shown_faces
 from subdivision.topology import Topology
 from subdivision.trace import Mesh
@@ -26,14 +28,11 @@ _MODEL = {
 
 @dataclass(eq=False)
 class _Found:
-    """The words of a file as they come; ``before`` counts the vertices in front of every face."""
+    """What a file says as it comes; ``before`` counts the vertices in front of every face."""
 
-    coordinates: list[bytes] = field(default_factory=list)
-    vertex_lines: list[int] = field(default_factory=list)
-    corners: list[bytes] = field(default_factory=list)
-    sizes: list[int] = field(default_factory=list)
-    face_lines: list[int] = field(default_factory=list)
-    before: list[int] = field(default_factory=list)
+    vertices: Vertices = field(default_factory=Vertices)
+    faces: Faces = field(default_factory=Faces)
+    before: "array[int]" = field(default_factory=lambda: array("q"))
     creases: dict[tuple[int, int], float] = field(default_factory=dict)
     crease_lines: dict[tuple[int, int], int] = field(default_factory=dict)
     sharp: dict[int, float] = field(default_factory=dict)
@@ -42,14 +41,11 @@ class _Found:
     def vertex(self, line: int, words: list[bytes]) -> None:
         if len(words) < 4:
             raise Fault.at_line(line, f"this vertex has {len(words) - 1} of 3 coordinates", "write it as 'v x y z'")
-        self.coordinates += words[1:4]
-        self.vertex_lines.append(line)
+        self.vertices.add(line, words[1:4])
 
     def face(self, line: int, words: list[bytes]) -> None:
-        self.corners += [word.partition(b"/")[0] for word in words[1:]]
-        self.sizes.append(len(words) - 1)
-        self.face_lines.append(line)
-        self.before.append(len(self.vertex_lines))
+        self.before.append(len(self.vertices))
+        self.faces.add(line, [word.partition(b"/")[0] for word in words[1:]])
 
     def tag(self, line: int, words: list[bytes]) -> None:
         name = words[1] if len(words) > 1 else b""
@@ -81,7 +77,8 @@ def read(data: bytes) -> Content:
     Fault
     """
     found = _Found()
-    for line, words in rows(_continued(text_lines(data))):
+    lines = text_lines(data)
+    for line, words in rows(_continued(lines) if b"\\" in data else lines):
         match words[0]:
             case b"v":
                 found.vertex(line, words)
@@ -89,14 +86,19 @@ def read(data: bytes) -> Content:
                 found.face(line, words)
             case b"t":
                 found.tag(line, words)
-    points = coordinates(found.coordinates, np.array(found.vertex_lines, dtype=np.intp))
+    points = found.vertices.points()
+    for a, b in found.creases:
+        if b >= len(points):
+            raise Fault.at_line(
+                found.crease_lines[a, b], f"there is no vertex {b} to crease", f"write {_MODEL[b'crease']}"
+            )
     for v in found.sharp:
         if v >= len(points):
             raise Fault.at_line(
                 found.sharp_lines[v], f"there is no vertex {v} to sharpen", f"write {_MODEL[b'corner']}"
             )
     return Content(
-        points, np.array(found.sizes, dtype=np.intp), _from_zero(found), np.array(found.face_lines, dtype=np.intp),
+        points, np.array(found.faces.sizes), _from_zero(found), np.array(found.faces.lines),
         vertex=lambda v: f"vertex {v + 1}", creases=found.creases, sharp_corners=found.sharp,
         tag_lines=found.crease_lines,
     )  # fmt: skip
@@ -104,28 +106,29 @@ def read(data: bytes) -> Content:
 
 def _continued(lines: Iterable[bytes]) -> Iterator[bytes]:
     """Lines that end with a backslash joined with the next one; an empty line keeps the place of each joined one."""
-    held: list[bytes] = []
+    held, n = bytearray(), 0
     for line in lines:
         if line.endswith(b"\\") and not line.lstrip().startswith(b"#"):
-            held.append(line[:-1])
-        elif held:
-            yield b" ".join([*held, line])
-            yield from [b""] * len(held)
-            held = []
+            held += line[:-1] + b" "
+            n += 1
+        elif n:
+            yield bytes(held + line)
+            yield from repeat(b"", n)
+            held, n = bytearray(), 0
         else:
             yield line
-    yield b" ".join(held)
+    yield bytes(held)
 
 
 def _from_zero(found: _Found) -> Indices:
     """(n_corners,) int: the vertices of all faces, relative and absolute ones, counted from 0."""
-    written = vertex_numbers(found.corners, found.sizes, found.face_lines)
-    before = np.repeat(np.array(found.before, dtype=np.intp), found.sizes)
+    written = found.faces.corners()
+    before = np.repeat(np.array(found.before), found.faces.sizes)
     corners = np.where(written < 0, written + before, written - 1)
-    n = len(found.vertex_lines)
+    n = len(found.vertices)
     if (bad := np.flatnonzero((corners < 0) | (corners >= n))).size:
-        face = int(np.searchsorted(np.cumsum(found.sizes), bad[0], side="right"))
-        raise _unknown_vertex(int(written[bad[0]]), n, found.before[face], found.face_lines[face])
+        face = found.faces.face(bad[0])
+        raise _unknown_vertex(int(written[bad[0]]), n, found.before[face], found.faces.lines[face])
     return corners
 
 

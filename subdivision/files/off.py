@@ -8,7 +8,7 @@ import numpy as np
 
 from subdivision.files.content import Content, require_known
 from subdivision.files.faults import Fault, quoted
-from subdivision.files.text import Row, coordinates, rows, text_lines, vertex_numbers, whole
+from subdivision.files.text import Faces, Row, Vertices, rows, text_lines, whole
 
 _KEYWORD = re.compile(rb"(ST)?C?N?(4?n?)OFF")
 
@@ -23,12 +23,12 @@ def read(data: bytes) -> Content:
     lines = text_lines(data)
     body = rows(lines)
     n_vertices, n_faces, line = _counts(body)
-    points, of_vertex = _vertices(islice(body, min(n_vertices, len(lines))))
-    words, sizes, of_face = _faces(islice(body, min(n_faces, len(lines))))
-    if len(of_vertex) + len(of_face) < n_vertices + n_faces:
+    vertices = _vertices(islice(body, min(n_vertices, len(lines))))
+    faces = _faces(islice(body, min(n_faces, len(lines))))
+    if len(vertices) + len(faces) < n_vertices + n_faces:
         raise Fault.at_line(
             len(lines),
-            f"the file ends after {len(of_vertex)} of {n_vertices} vertices and {len(of_face)} of {n_faces} faces",
+            f"the file ends after {len(vertices)} of {n_vertices} vertices and {len(faces)} of {n_faces} faces",
             f"correct the counts in line {line}, or export the mesh again if it was cut short",
         )
     if extra := next(body, None):
@@ -37,9 +37,7 @@ def read(data: bytes) -> Content:
             f"there is more than the {n_vertices} vertices and {n_faces} faces that line {line} counts",
             "correct the counts or remove the rest",
         )
-    found = coordinates(points, np.array(of_vertex, dtype=np.intp))
-    corners = vertex_numbers(words, sizes, of_face)
-    return require_known(Content(found, np.array(sizes, dtype=np.intp), corners, np.array(of_face, dtype=np.intp)))
+    return require_known(Content(vertices.points(), np.array(faces.sizes), faces.corners(), np.array(faces.lines)))
 
 
 def _counts(body: Iterator[Row]) -> tuple[int, int, int]:
@@ -61,23 +59,19 @@ def _counts(body: Iterator[Row]) -> tuple[int, int, int]:
     return whole(words[0], "the number of vertices", line), whole(words[1], "the number of faces", line), line
 
 
-def _vertices(body: Iterator[Row]) -> tuple[list[bytes], list[int]]:
-    words_of_all: list[bytes] = []
-    lines: list[int] = []
+def _vertices(body: Iterator[Row]) -> Vertices:
+    found = Vertices()
     for line, words in body:
         if len(words) < 3:
             raise Fault.at_line(
                 line, f"this vertex has {len(words)} of 3 coordinates", "write all three, or correct the counts"
             )
-        words_of_all += words[:3]
-        lines.append(line)
-    return words_of_all, lines
+        found.add(line, words[:3])
+    return found
 
 
-def _faces(body: Iterator[Row]) -> tuple[list[bytes], list[int], list[int]]:
-    corners: list[bytes] = []
-    sizes: list[int] = []
-    lines: list[int] = []
+def _faces(body: Iterator[Row]) -> Faces:
+    found = Faces()
     for line, words in body:
         size = whole(words[0], "the number of this face's corners", line)
         if len(words) <= size:
@@ -86,7 +80,5 @@ def _faces(body: Iterator[Row]) -> tuple[list[bytes], list[int], list[int]]:
                 f"this face announces {size} corners and names {len(words) - 1}",
                 "name them all in this line, or correct the number",
             )
-        corners += words[1 : size + 1]
-        sizes.append(size)
-        lines.append(line)
-    return corners, sizes, lines
+        found.add(line, words[1 : size + 1])
+    return found

@@ -1,35 +1,28 @@
 """The rows of a PLY file: those of one element after another, as text or as bytes."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from itertools import cycle, islice
+from collections.abc import Callable, Iterator
+from itertools import islice
 from struct import Struct
-from struct import error as StructError
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from subdivision.arrays import Indices
-from subdivision.files.content import Content
+from subdivision.files.content import Content, too_few_corners
 from subdivision.files.faults import Fault
 from subdivision.files.ply_header import Element, Header, Property
-from subdivision.files.text import Row, coordinates, require_finite, rows, text_lines, vertex_numbers, whole
+from subdivision.files.text import Faces, Row, Vertices, require_finite, rows, text_lines, whole
 
 _CUT = "export the mesh again if it was cut short, or correct the number of rows in the header"
 _CODES = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "i8": "q", "u8": "Q"}
 
+_ALIKE, _FEW, _WALKED = 2**14, 64, 2**10
+"""Rows compared at once; fewer of them alike are not worth it; then so many are walked one by one."""
+
+_Keep: TypeAlias = Callable[[int, list[bytes]], None]
 Wanted: TypeAlias = dict[str, tuple[Property, ...]]
 """The properties to read of the elements ``vertex`` (three) and ``face`` (a list)."""
-
-
-@dataclass(eq=False)
-class _Words:
-    """What the chosen properties of all rows of an element say, how many words a row has, and on which line."""
-
-    words: list[bytes] = field(default_factory=list)
-    sizes: list[int] = field(default_factory=list)
-    lines: list[int] = field(default_factory=list)
 
 
 def text_content(data: bytes, header: Header, wanted: Wanted) -> Content:
@@ -37,39 +30,39 @@ def text_content(data: bytes, header: Header, wanted: Wanted) -> Content:
     lines = text_lines(data, header.size)
     remaining = rows(lines, header.n_lines + 1)
     last = header.n_lines + len(lines)
-    found: dict[str, _Words] = {}
+    vertices, faces = Vertices(), Faces()
+    keeps: dict[str, _Keep] = {"vertex": vertices.add, "face": faces.add}
     for element in header.elements:
-        found[element.name] = _words(element, wanted.get(element.name, ()), remaining)
-        if len(found[element.name].lines) < element.n and element.properties:
-            n = len(found[element.name].lines)
+        n = _kept(element, wanted.get(element.name, ()), remaining, keeps.get(element.name, _pass_over))
+        if n < element.n and element.properties:
             raise Fault.at_line(last, f"the file ends after {n} of {element.n} rows of element {element.name}", _CUT)
     if extra := next(remaining, None):
         raise Fault.at_line(
             extra[0], "there are more rows than the header declares", "correct its numbers or remove them"
         )
-    vertex, face = found["vertex"], found["face"]
-    points = coordinates(vertex.words, np.array(vertex.lines, dtype=np.intp))
-    corners = vertex_numbers(face.words, face.sizes, face.lines)
-    return Content(points, np.array(face.sizes, dtype=np.intp), corners, np.array(face.lines, dtype=np.intp))
+    return Content(vertices.points(), np.array(faces.sizes), faces.corners(), np.array(faces.lines))
 
 
-def _words(element: Element, chosen: tuple[Property, ...], remaining: Iterator[Row]) -> _Words:
-    found = _Words()
+def _pass_over(line: int, words: list[bytes]) -> None:
+    """Nobody asks for this row."""
+
+
+def _kept(element: Element, chosen: tuple[Property, ...], remaining: Iterator[Row], keep: _Keep) -> int:
+    """How many rows there are; the words of their chosen properties are kept."""
     columns = [element.properties.index(p) for p in chosen]
-    rows_that_can_be = min(element.n, 2**62) if element.properties else 0
-    for line, row in islice(remaining, rows_that_can_be):
-        found.lines.append(line)
+    walks = bool(chosen) and element.has_lists
+    n = 0
+    for line, row in islice(remaining, min(element.n, 2**62) if element.properties else 0):
+        n += 1
         try:
-            words = _walked(element, chosen, row, line) if element.has_lists else [row[c] for c in columns]
+            keep(line, _walked(element, chosen, row, line) if walks else [row[c] for c in columns])
         except IndexError:
             raise Fault.at_line(
                 line,
                 f"this row of element {element.name} has only {len(row)} words",
                 "complete it or export the mesh again",
             ) from None
-        found.words += words
-        found.sizes.append(len(words))
-    return found
+    return n
 
 
 def _walked(element: Element, chosen: tuple[Property, ...], row: list[bytes], line: int) -> list[bytes]:
@@ -112,33 +105,71 @@ def _begins(element: Element, chosen: tuple[Property, ...], data: bytes, at: int
         raise _cut(element, data)
     columns = [element.properties.index(p) for p in chosen]
     if element.has_lists:
-        begins, end = _walked_bytes(element, data, at, order)
-        return begins[:, columns], end
+        return _Walk(element, columns, data, order).from_byte(at)
     n = element.n if chosen else 0
     offsets = (np.cumsum(widths, dtype=np.intp) - widths)[columns]
     return at + sum(widths) * np.arange(n)[:, None] + offsets, at + element.n * sum(widths)
 
 
-def _walked_bytes(element: Element, data: bytes, at: int, order: str) -> tuple[Indices, int]:
-    """Likewise for all properties, where lists make every row as long as it says."""
-    lengths = [Struct(order + _CODES[p.count]) if p.count else None for p in element.properties]
-    sizes = [np.dtype(p.kind).itemsize for p in element.properties]
-    begins: list[int] = []
-    try:
-        for length, size in islice(cycle(zip(lengths, sizes, strict=True)), element.n * len(sizes)):
+class _Walk:
+    """Where properties begin in rows with lists, which are as long as they say."""
+
+    def __init__(self, element: Element, columns: list[int], data: bytes, order: str) -> None:
+        self._element, self._columns, self._data = element, columns, data
+        self._counts = [Struct(order + _CODES[p.count]) if p.count else None for p in element.properties]
+        self._sizes = [np.dtype(p.kind).itemsize for p in element.properties]
+        self._loop = columns[0] if element.name == "face" and columns else -1
+
+    def from_byte(self, at: int) -> tuple[Indices, int]:
+        """(n, n_columns) int, and the byte behind all rows: stretches of rows alike at once, others one by one."""
+        found: list[Indices] = []
+        done, n = 0, self._element.n
+        while done < n:
+            begins, end = self._alike(at, min(n - done, _ALIKE))
+            if len(begins) < _FEW:
+                begins, end = self._row_by_row(at, min(n - done, _WALKED))
+            found.append(begins[:, self._columns])
+            at, done = end, done + len(begins)
+        return np.concatenate([np.empty((0, len(self._columns)), dtype=np.intp), *found]), at
+
+    def _row(self, at: int) -> tuple[list[int], int]:
+        """Where its properties begin, and the byte behind it."""
+        begins = []
+        for column, (count, size) in enumerate(zip(self._counts, self._sizes, strict=True)):
             begins.append(at)
-            if length:
-                n = length.unpack_from(data, at)[0]
-                if n < 0:
-                    raise Fault.at_byte(at, f"a list of {n} values begins here", "export the mesh again")
-                at += length.size + n * size
-            else:
-                at += size
-            if at > len(data):
-                raise _cut(element, data)
-    except StructError:
-        raise _cut(element, data) from None
-    return np.array(begins, dtype=np.intp).reshape(-1, len(sizes)), at
+            at += self._list(count, size, at, column) if count else size
+        if at > len(self._data):
+            raise _cut(self._element, self._data)
+        return begins, at
+
+    def _list(self, count: Struct, size: int, at: int, column: int) -> int:
+        """How many bytes a list takes."""
+        if at + count.size > len(self._data):
+            raise _cut(self._element, self._data)
+        n = count.unpack_from(self._data, at)[0]
+        if n < 0:
+            raise Fault.at_byte(at, f"a list of {n} values begins here", "export the mesh again")
+        if column == self._loop and n < 3:  # at once, for millions of them fit into a small file
+            raise too_few_corners(n, f"byte {at}")
+        return int(count.size + n * size)
+
+    def _row_by_row(self, at: int, n: int) -> tuple[Indices, int]:
+        begins = []
+        for _ in range(n):
+            row, at = self._row(at)
+            begins.append(row)
+        return np.array(begins, dtype=np.intp), at
+
+    def _alike(self, at: int, n: int) -> tuple[Indices, int]:
+        """The rows from here on, ``n`` at most, whose lists are as long as those of the first."""
+        begins, end = self._row(at)
+        width = end - at
+        n = min(n, (len(self._data) - at) // width)
+        table = np.frombuffer(self._data, np.uint8, n * width, at).reshape(n, width)
+        counts = [b - at + k for b, count in zip(begins, self._counts, strict=True) if count for k in range(count.size)]
+        differs = (table[:, counts] != table[0, counts]).any(axis=1)
+        n = int(differs.argmax()) if differs.any() else n
+        return np.array(begins) + width * np.arange(n)[:, None], at + n * width
 
 
 def _gathered(data: bytes, begins: Indices, kind: str) -> NDArray[Any]:

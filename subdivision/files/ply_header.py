@@ -12,6 +12,7 @@ _TYPES = {
     "int64": "i8", "uint64": "u8", "float32": "f4", "float64": "f8",
 }  # fmt: skip
 _ORDERS = {b"ascii": "", b"binary_little_endian": "<", b"binary_big_endian": ">"}
+_LONGEST = 2**20
 _BEGIN = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]*(\r\n|\n|\r)")
 
 
@@ -73,6 +74,8 @@ def header_of(data: bytes) -> Header:
     if size < 0:
         n = data.count(newline) + 1
         raise Fault.at_line(n, "the file ends before 'end_header'", "export the mesh again, it was cut short")
+    if size > _LONGEST:
+        raise Fault.at_line(1, f"the header has {size:,} bytes", f"write one of {_LONGEST:,} at most")
     lines = data[begin.end() : end].split(newline) if end >= begin.end() else []
     header = _declared(lines)
     return replace(header, size=size + len(newline), n_lines=len(lines) + 2)

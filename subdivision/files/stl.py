@@ -3,6 +3,7 @@
 It is written in binary: single precision is all the format has.
 """
 
+from array import array
 from collections.abc import Iterator
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from subdivision.arrays import Floats, Indices
 from subdivision.files.content import Content
 from subdivision.files.faults import Fault, quoted
-from subdivision.files.text import BYTE_ORDER_MARK, Row, coordinates, require_finite, rows, text_lines
+from subdivision.files.text import BYTE_ORDER_MARK, Row, Vertices, require_finite, rows, text_lines
 from subdivision.files.triangles import normals, triangles
 from subdivision.trace import Mesh
 
@@ -63,18 +64,15 @@ def _text(data: bytes) -> Content:
             f"the file ends before '{'endfacet' if facets.open_facet else 'endsolid'}'",
             "export the mesh again, it was cut short",
         )
-    points = coordinates(facets.coordinates, np.array(facets.vertex_lines, dtype=np.intp))
-    return _merged(points, np.array(facets.sizes, dtype=np.intp), np.array(facets.lines, dtype=np.intp), "line")
+    return _merged(facets.vertices.points(), np.array(facets.sizes), np.array(facets.lines), "line")
 
 
 class _Facets:
     """The words of a text file as they come."""
 
     def __init__(self) -> None:
-        self.coordinates: list[bytes] = []
-        self.vertex_lines: list[int] = []
-        self.sizes: list[int] = []
-        self.lines: list[int] = []
+        self.vertices = Vertices()
+        self.sizes, self.lines = array("q"), array("q")
         self.open_solid = self.open_facet = False
 
     def take(self, row: Row) -> None:
@@ -102,8 +100,7 @@ class _Facets:
             raise Fault.at_line(
                 line, f"this vertex has {len(words) - 1} of 3 coordinates", "write it as 'vertex x y z'"
             )
-        self.coordinates += words[1:4]
-        self.vertex_lines.append(line)
+        self.vertices.add(line, words[1:4])
         self.sizes[-1] += 1
 
     def _require(self, expected: bool, row: Row) -> None:
