@@ -105,6 +105,7 @@ QLineEdit { border: 1px solid $line; border-radius: 6px; padding: 5px 8px; backg
 QLineEdit:focus { border: 2px solid $accent; padding: 4px 7px; }
 QDoubleSpinBox { border: 1px solid $line; border-radius: 6px; padding: 3px 4px; background: $background; }
 QAbstractSpinBox QLineEdit, QAbstractSpinBox QLineEdit:focus { border: none; padding: 0; background: transparent; }
+QDoubleSpinBox::up-button, QDoubleSpinBox::down-button { width: 0; border: none; }
 QDoubleSpinBox:focus { border: 2px solid $accent; padding: 2px 3px; }
 QComboBox { border: 1px solid $line; border-radius: 6px; padding: 4px 8px; background: $background; }
 QComboBox:hover { background: $tint; }

@@ -22,7 +22,6 @@ class Place(QWidget):
             box.setRange(-MOST, MOST)
             box.setDecimals(3)
             box.setSingleStep(0.1)
-            box.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)
             box.setKeyboardTracking(False)
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             box.setAccessibleName(name)

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
 from app.gui.look import GRID, type_face
 
@@ -21,8 +21,10 @@ class Stepper(QWidget):
         self.more.clicked.connect(lambda: step(1))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(GRID // 2)
-        row.addWidget(QLabel(f"{name[:1].upper()}{name[1:]}"), 1)
+        row.setSpacing(GRID // 4)
+        words = QLabel(f"{name[:1].upper()}{name[1:]}")
+        words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)  # never widens the panel
+        row.addWidget(words, 1)
         for part in (self.less, self._value, self.more):
             row.addWidget(part)
 
@@ -36,7 +38,7 @@ def _button(sign: str, name: str, keys: str) -> QToolButton:
     button = QToolButton()
     button.setText(sign)
     button.setFont(type_face(16))
-    button.setFixedSize(QSize(4 * GRID, 4 * GRID - 4))
+    button.setFixedSize(QSize(3 * GRID + 4, 3 * GRID + 4))
     button.setAutoRepeat(True)
     button.setAccessibleName(name)
     button.setToolTip(f"{name} ({keys})" if keys else name)
