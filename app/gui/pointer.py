@@ -5,7 +5,9 @@ Pointing changes nothing that is shown, so it is no part of the state, and no pi
 
 from PySide6.QtCore import QElapsedTimer, QPointF, QRectF, Qt, QTimer
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QRadialGradient
-from PySide6.QtWidgets import QStyle, QWidget
+from PySide6.QtWidgets import QWidget
+
+from app.state import Options
 
 STILL = 2000
 """Milliseconds: a pointer that rests so long while presenting is hidden."""
@@ -27,7 +29,7 @@ class Pointer(QWidget):
         super().__init__(under)
         self._under = under
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self._is_presenting = False
+        self._is_presenting, self._is_trailing = False, True
         self.is_lit = False
         self.at: QPointF | None = None
         self._trail: list[tuple[int, QPointF]] = []
@@ -44,15 +46,11 @@ class Pointer(QWidget):
         """Of the light, in pixels: large enough for the back row."""
         return max(self.height() / 90, 7.0)
 
-    @property
-    def is_trailing(self) -> bool:
-        """Whether the style animates anything at all."""
-        return self.style().styleHint(QStyle.StyleHint.SH_Widget_Animation_Duration, None, self) > 0
-
-    def present(self, *, is_on: bool) -> None:
-        """While presenting, a pointer that rests is hidden."""
-        if is_on != self._is_presenting:
-            self._is_presenting = is_on
+    def obey(self, options: Options) -> None:
+        """While presenting, a pointer that rests is hidden; with reduced motion the light has no trail."""
+        self._is_trailing = not options.reduced_motion
+        if options.presenting != self._is_presenting:
+            self._is_presenting = options.presenting
             self._woken()
 
     def toggle(self) -> None:
@@ -66,7 +64,7 @@ class Pointer(QWidget):
         """The mouse is at another place."""
         before, self.at = self.at, here
         if self.is_lit:
-            if before is not None and self.is_trailing:
+            if before is not None and self._is_trailing:
                 self._trail.append((self._clock.elapsed(), before))
                 self._fade.start()
             self._repaint(before, here)

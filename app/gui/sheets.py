@@ -11,7 +11,7 @@ from app.gui.keys import COMMANDS, MOUSE, spelled_keys
 from app.gui.look import GRID, colour, line_of, mixed, type_face
 from app.gui.session import Session
 
-COLUMNS = (("Lesson",), ("View", "Present"), ("File", "Edit", "Help", "Mouse"))
+COLUMNS = (("Lesson", "Present"), ("View",), ("File", "Edit", "Help", "Mouse"))
 
 ABOUT = (
     "Subdivision Studio",

@@ -114,7 +114,7 @@ class Viewport(QWidget):
 
     def show_state(self, state: State) -> None:
         before, self._state = self._state, state
-        self.pointer.present(is_on=state.options.presenting)
+        self.pointer.obey(state.options)
         if is_turned_only(before, state):
             self._look_again()
             return

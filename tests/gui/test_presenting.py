@@ -83,15 +83,8 @@ def test_the_light_follows_the_mouse_and_leaves_no_trace(qtbot, window, presents
     assert (window.session.state, window.viewport._picture) == (state, picture)
 
 
-class Calm:
-    """A style that animates nothing."""
-
-    def styleHint(self, *_):
-        return 0
-
-
-def test_where_motion_is_not_wanted_the_light_has_no_trail(window, monkeypatch):
-    monkeypatch.setattr(window.viewport.pointer, "style", Calm)
+def test_where_motion_is_not_wanted_the_light_has_no_trail(window):
+    window.session.do(choose, reduced_motion=True)
     press(window, Key.Key_F2)
     move(window, 60, 80)
     move(window, 120, 80)
