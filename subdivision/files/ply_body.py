@@ -35,7 +35,7 @@ def text_content(data: bytes, header: Header, wanted: Wanted) -> Content:
     for element in header.elements:
         n = _kept(element, wanted.get(element.name, ()), remaining, keeps.get(element.name, _pass_over))
         if n < element.n and element.properties:
-            raise Fault.at_line(last, f"the file ends after {n} of {element.n} rows of element {element.name}", _CUT)
+            raise Fault.at_line(last, f"the file ends after {n} of {element.n} rows of element {element.called}", _CUT)
     if extra := next(remaining, None):
         raise Fault.at_line(
             extra[0], "there are more rows than the header declares", "correct its numbers or remove them"
@@ -59,7 +59,7 @@ def _kept(element: Element, chosen: tuple[Property, ...], remaining: Iterator[Ro
         except IndexError:
             raise Fault.at_line(
                 line,
-                f"this row of element {element.name} has only {len(row)} words",
+                f"this row of element {element.called} has only {len(row)} words",
                 "complete it or export the mesh again",
             ) from None
     return n
@@ -182,5 +182,5 @@ def _gathered(data: bytes, begins: Indices, kind: str) -> NDArray[Any]:
 
 
 def _cut(element: Element, data: bytes) -> Fault:
-    what = f"the file ends before all rows of element {element.name} (line {element.line} declares {element.n})"
+    what = f"the file ends before all rows of element {element.called} (line {element.line} declares {element.n})"
     return Fault.at_byte(len(data), what, _CUT)

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass, replace
 
-from subdivision.files.faults import Fault, quoted
+from subdivision.files.faults import Fault, printable, quoted
 from subdivision.files.text import whole
 
 _TYPES = {
@@ -33,6 +33,11 @@ class Element:
     n: int
     line: int
     properties: tuple[Property, ...] = ()
+
+    @property
+    def called(self) -> str:
+        """Its name as a sentence shows it."""
+        return printable(self.name[:40])
 
     @property
     def has_lists(self) -> bool:
