@@ -215,7 +215,8 @@ def sheet(lessons: Sequence[Lesson], options: Options) -> bytes:
         whole.paste(_tile(at_stop(start(each, options), poster(each))), (x, y))
         _label(pen, each.title, (x, y + TILE[1] + LINE // 2), theme)
     out = BytesIO()
-    whole.quantize(COLOURS, dither=Image.Dither.NONE).save(out, "PNG", optimize=True)
+    few = whole.quantize(COLOURS, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)  # rare colours stay
+    few.save(out, "PNG", optimize=True)
     return out.getvalue()
 
 
