@@ -107,6 +107,8 @@ class Contents(QWidget):
             has_any = has_any or hit
         if heading >= 0:
             self.list.setRowHidden(heading, not has_any)
+        if not words:
+            self.list.scrollTo(self.list.currentIndex())
         self.list.empty = "No lesson has these words in its title." if self._first_visible() is None else ""
         self.list.viewport().update()
 
