@@ -48,7 +48,7 @@ def placed(scene: Scene, camera: Camera, area: Area, height: float, picture: Pic
             continue  # the user has turned or zoomed its point out of the pane
         size = max(label.size * picture.scale, LEAST) * unit
         box, off = _best(label, (x, y), size, unit, area, discs, strokes, taken)
-        taken = np.vstack([taken, box])
+        taken = np.vstack([taken, box + np.array([-0.25, 0, 0.5, 0]) * box[3]])  # words side by side read as two
         found.extend(_drawn(label, (x, y), size, box, off, picture, unit))
     return sorted(found, key=lambda one: isinstance(one, Text))
 
