@@ -33,7 +33,7 @@ class Laboratory(QWidget):
     def __init__(self, session: Session, banner: Banner) -> None:
         super().__init__()
         self._session = session
-        self.worker = Worker(session, self._refused, banner.wait, banner.done)
+        self.worker = Worker(session, banner)
         self._banner = banner
         self._about: tuple[object, ...] = ()
         self.panes: list[Pane] = []
@@ -54,9 +54,22 @@ class Laboratory(QWidget):
 
     def wish(self, transition: Callable[..., State], *args: Any) -> None:
         """Do it, or say why not; with a large object, where nobody waits for a picture."""
-        if _weight(self._session.state.lab) > LIGHT:
-            self.worker.do(transition, *args)
-            return
+        state = self._session.state
+        if _weight(state.lab) > LIGHT:
+            self._work_out(lambda: transition(state, *args), lambda _: self._do(transition, *args))
+        else:
+            self._do(transition, *args)
+
+    def _work_out(self, work: Callable[[], State], then: Callable[[State], None]) -> None:
+        """What a transition works out is kept: once it has run elsewhere, it is quick on the state of the moment."""
+        self.worker.start(
+            work, then, self._refused,
+            waiting="Working out the stages …",
+            too_large="There is not enough memory for this; choose fewer levels.",
+            broken="Something went wrong inside the program; the log has the details.",
+        )  # fmt: skip
+
+    def _do(self, transition: Callable[..., State], *args: Any) -> None:
         try:
             self._session.do(transition, *args)
         except TopologyError as refusal:

@@ -1,4 +1,4 @@
-"""Large changes, worked out where nobody waits for a picture, then made in the window's thread."""
+"""Work that takes long, done off the window's thread: reading a file, telling a large object."""
 
 import logging
 from collections.abc import Callable
@@ -6,94 +6,110 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
 
-from app.gui.session import Session
-from app.state import State
+from app.gui.banner import Banner
+from app.strict import KeepingError
 from subdivision import TopologyError
+from subdivision.files import FileError
 
 PATIENCE = 100
 """Milliseconds before a wait is announced."""
+
+REFUSALS = (FileError, KeepingError, TopologyError)
+"""Faults that are sentences for the user."""
 
 LOG = logging.getLogger(__name__)
 
 
 class Worker(QObject):
-    """One change at a time; a newer wish replaces an older one.
+    """One piece of work at a time; a newer one replaces an older one, which is then no longer wanted."""
 
-    A transition is a function, and what it works out is kept: once it has run elsewhere, running it
-    again on the state of the moment is quick.
-    """
-
-    def __init__(
-        self,
-        session: Session,
-        say: Callable[[str], None],
-        wait: Callable[[str, Callable[[], None]], None],
-        done: Callable[[], None],
-    ) -> None:
-        super().__init__(session)
-        self._session, self._say, self._wait, self._over = session, say, wait, done
+    def __init__(self, parent: QObject, banner: Banner) -> None:
+        super().__init__(parent)
+        self._banner = banner
         self._job: _Job | None = None
         self._running: set[_Job] = set()  # a job must outlive its run, wanted or not
         self._patience = QTimer(self, singleShot=True, interval=PATIENCE)
-        self._patience.timeout.connect(lambda: self._wait("Working out the stages …", self.forget))
+        self._patience.timeout.connect(self._announce)
+        self._waiting = ""
 
     @property
     def is_busy(self) -> bool:
         return self._job is not None
 
-    def do(self, transition: Callable[..., State], *args: Any) -> None:
-        """Work the transition out elsewhere, then make it here."""
+    def start(
+        self,
+        work: Callable[[], Any],
+        done: Callable[[Any], None],
+        failed: Callable[[str], None],
+        *,
+        waiting: str,
+        too_large: str,
+        broken: str,
+    ) -> None:
+        """Do ``work`` elsewhere; here ``done`` is told what it made, or ``failed`` a sentence.
+
+        ``waiting`` is said while it takes long, ``too_large`` and ``broken`` where it ends in no sentence of its own.
+        """
         self.forget()
-        self._job = _Job(self._session.state, transition, args)
+        self._waiting = waiting
+        self._job = _Job(work, done, failed, too_large, broken)
         self._running.add(self._job)
-        self._job.told.done.connect(self._done)
+        self._job.told.over.connect(self._running.discard)
+        self._job.told.done.connect(self._succeeded)  # methods of ours, so that they are called in our thread
         self._job.told.failed.connect(self._failed)
         self._patience.start()
         QThreadPool.globalInstance().start(self._job)
 
     def forget(self) -> None:
-        """What is being worked out is no longer wanted."""
+        """What is being worked on is no longer wanted."""
         self._patience.stop()
-        if self._job is not None:
-            self._job = None
-            self._over()
+        self._banner.done()
+        self._job = None
 
-    def _done(self, job: "_Job") -> None:
-        self._running.discard(job)
+    def _announce(self) -> None:
+        if self._job is not None:
+            self._banner.wait(self._waiting, self.forget)
+
+    def _succeeded(self, job: "_Job", made: object) -> None:
         if job is self._job:
             self.forget()
-            try:
-                self._session.do(job.transition, *job.args)
-            except TopologyError as refusal:
-                self._say(str(refusal))
+            job.done(made)
 
     def _failed(self, job: "_Job", sentence: str) -> None:
-        self._running.discard(job)
         if job is self._job:
             self.forget()
-            self._say(sentence)
+            job.failed(sentence)
 
 
 class _Told(QObject):
-    done = Signal(object)
+    done = Signal(object, object)
     failed = Signal(object, str)
+    over = Signal(object)
 
 
 class _Job(QRunnable):
-    def __init__(self, state: State, transition: Callable[..., State], args: tuple[Any, ...]) -> None:
+    def __init__(
+        self,
+        work: Callable[[], Any],
+        done: Callable[[Any], None],
+        failed: Callable[[str], None],
+        too_large: str,
+        broken: str,
+    ) -> None:
         super().__init__()
         self.setAutoDelete(False)
-        self.state, self.transition, self.args, self.told = state, transition, args, _Told()
+        self.work, self.done, self.failed = work, done, failed
+        self.too_large, self.broken, self.told = too_large, broken, _Told()
 
     def run(self) -> None:
         try:
-            self.transition(self.state, *self.args)
-        except TopologyError as refusal:
-            self.told.failed.emit(self, str(refusal))
+            self.told.done.emit(self, self.work())
+        except REFUSALS as fault:
+            self.told.failed.emit(self, str(fault))
         except MemoryError:
-            self.told.failed.emit(self, "There is not enough memory for this; choose fewer levels.")
+            self.told.failed.emit(self, self.too_large)
         except Exception:
-            LOG.exception("working out %s", self.transition)
-            self.told.failed.emit(self, "Something went wrong inside the program; the log has the details.")
-        else:
-            self.told.done.emit(self)
+            LOG.exception("%s", self.broken)
+            self.told.failed.emit(self, self.broken)
+        finally:
+            self.told.over.emit(self)
