@@ -15,7 +15,7 @@ import numpy as np
 
 from app.draw.motion import eased
 from app.draw.picture import Box, Colour, Diagram, Link, Note
-from app.draw.theme import Theme
+from app.draw.theme import Theme, mixed
 from app.state import Spot
 from subdivision import Connectivity, Grid, Polyline, Role, Stage, Step, Trace
 from subdivision.arrays import Floats
@@ -99,13 +99,7 @@ def times(below: int) -> str:
 
 def tinted(colour: Colour, theme: Theme, part: float = TINT) -> Colour:
     """A colour thinned with the background."""
-    return mixed(colour, theme.background, part)
-
-
-def mixed(colour: Colour, other: Colour, part: float) -> Colour:
-    """``part`` of a colour, the rest of the other."""
-    r, g, b = (part * c + (1 - part) * w for c, w in zip(colour, other, strict=True))
-    return r, g, b
+    return mixed(theme.background, colour, part)
 
 
 # -- what a box says --------------------------------------------------------------------------
@@ -324,4 +318,4 @@ def _glow(told: _Told, done: int, point: int) -> float:
 
 def _lit(told: _Told, glow: float, colour: Colour) -> tuple[Colour, float]:
     """Colour and width of a stroke that is lit so brightly."""
-    return mixed(told.theme.selection, colour, glow), LINE + GLOW * glow
+    return mixed(colour, told.theme.selection, glow), LINE + GLOW * glow

@@ -4,9 +4,8 @@ from collections import Counter
 from collections.abc import Iterator
 from math import lcm
 
-from app.draw.diagrams import mixed
 from app.draw.picture import Box, Diagram, Link, Note
-from app.draw.theme import Theme
+from app.draw.theme import Theme, mixed
 from subdivision.continuity import Mask, alpha, degree, mask, smoothness
 from subdivision.passes import Vector
 
@@ -106,6 +105,6 @@ def _boxes(table: Mask, top: float, side: float, theme: Theme) -> Iterator[Box]:
         for i, count in enumerate(row):
             yield Box(
                 left + side * (i + 0.5), top + side * (j + 0.5), (str(count) if count else "",),
-                mixed(theme.muted, theme.background, shade(count, heaviest)), theme.ink, theme.faint,
+                mixed(theme.background, theme.muted, shade(count, heaviest)), theme.ink, theme.faint,
                 0.94 * side, 0.94 * side, line=RULE,
             )  # fmt: skip

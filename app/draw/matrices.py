@@ -10,8 +10,8 @@ from functools import lru_cache
 import numpy as np
 from scipy.sparse import csr_array
 
-from app.draw.picture import Box, Colour, Diagram, Note
-from app.draw.theme import Theme
+from app.draw.picture import Box, Diagram, Note
+from app.draw.theme import Theme, mixed
 from app.state import Spot
 from subdivision import Step, Trace
 from subdivision.arrays import Floats, Indices
@@ -108,7 +108,7 @@ def _on_shelves(
 
 
 def _strip(x: float, y: float, width: int, row: int, theme: Theme) -> Box:
-    fill = _mixed(theme.background, theme.selection, 0.3)
+    fill = mixed(theme.background, theme.selection, 0.3)
     return Box(x + width / 2, y + row + 0.5, ("",), fill, theme.ink, fill, width + 1.0, 1.0, line=0.0)
 
 
@@ -118,13 +118,8 @@ def _marks(matrix: csr_array, at: tuple[float, float], stage: int, lit: Indices,
     found = []
     for i, j, w in zip(entries.row.tolist(), entries.col.tolist(), weights.tolist(), strict=True):
         ink = theme.selection if i in lit else theme.ink
-        fill = _mixed(theme.background, ink, PALEST + (1 - PALEST) * w)
+        fill = mixed(theme.background, ink, PALEST + (1 - PALEST) * w)
         found.append(
             Box(at[0] + j + 0.5, at[1] + i + 0.5, ("",), fill, ink, fill, 0.86, 0.86, point=i, stage=stage, line=0.0)
         )
     return found
-
-
-def _mixed(a: Colour, b: Colour, t: float) -> Colour:
-    red, green, blue = (p + t * (q - p) for p, q in zip(a, b, strict=True))
-    return red, green, blue

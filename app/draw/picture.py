@@ -105,8 +105,8 @@ class Camera:
 
     def project(self, points: Floats, width: float, height: float) -> Floats:
         """(n, 3): pixels right and down from the upper left, and depth away from the eye."""
-        ahead = _unit(self.focal - self.position)
-        right = _unit(np.cross(ahead, self.up))
+        ahead = unit(self.focal - self.position)
+        right = unit(np.cross(ahead, self.up))
         above = np.cross(right, ahead)
         away = np.asarray(points, dtype=float).reshape(-1, 3) - self.position
         depth = away @ ahead
@@ -120,8 +120,8 @@ class Camera:
 
     def place(self, x: float, y: float, depth: float, width: float, height: float) -> Floats:
         """(3,): what ``project`` sends to a pixel and a depth."""
-        ahead = _unit(self.focal - self.position)
-        right = _unit(np.cross(ahead, self.up))
+        ahead = unit(self.focal - self.position)
+        right = unit(np.cross(ahead, self.up))
         half = self.scale or depth * np.tan(np.radians(self.angle) / 2)
         aside, up = (2 * x - width) / height * half, (height - 2 * y) / height * half
         return np.asarray(self.position + depth * ahead + aside * right + up * np.cross(right, ahead))
@@ -275,5 +275,6 @@ class Picture:
         return tuple(p.content for p in self.panes if isinstance(p.content, Scene))
 
 
-def _unit(vector: Floats) -> Floats:
+def unit(vector: Floats) -> Floats:
+    """The vector at length one; nothing stays nothing."""
     return np.asarray(vector / max(float(np.linalg.norm(vector)), 1e-300), dtype=float)

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.draw.picture import Colour, Faces, Lines, Markers, Scene, Shape
-from app.draw.theme import Theme
+from app.draw.picture import Faces, Lines, Markers, Scene, Shape
+from app.draw.theme import Theme, mixed
 from app.state import Picked, State
 from lessons.script import View
 from subdivision import Mesh, Polyline
@@ -105,15 +105,10 @@ def _parted(faces: Faces, chosen: Mask, theme: Theme) -> tuple[Faces, ...]:
     """The faces that are not chosen, and those that are in their colour."""
     if len(faces.sizes) != len(chosen):
         return (faces,)
-    tinted = replace(_only(faces, chosen), colour=_mixed(faces.colour, theme.selection))
+    tinted = replace(_only(faces, chosen), colour=mixed(faces.colour, theme.selection, TINT))
     return tuple(part for part in (_only(faces, ~chosen), tinted) if len(part.sizes))
 
 
 def _only(faces: Faces, chosen: Mask) -> Faces:
     """Some of the faces."""
     return replace(faces, sizes=faces.sizes[chosen], corners=faces.corners[np.repeat(chosen, faces.sizes)])
-
-
-def _mixed(a: Colour, b: Colour) -> Colour:
-    red, green, blue = ((1 - TINT) * x + TINT * y for x, y in zip(a, b, strict=True))
-    return red, green, blue

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from app.draw.picture import Box, Diagram, Link, Note, Pane
-from app.draw.theme import Theme
+from app.draw.theme import Theme, mixed
 from app.state import State, level_of, valence_of
 from lessons.script import View
 from subdivision import Mesh, Topology, TopologyError, Trace
@@ -103,9 +103,7 @@ def _marks(ring: Ring, theme: Theme) -> Diagram:
 
 
 def _paler(theme: Theme, weight: float) -> tuple[float, float, float]:
-    t = PALEST + (1 - PALEST) * weight
-    red, green, blue = (a + t * (b - a) for a, b in zip(theme.background, theme.ink, strict=True))
-    return red, green, blue
+    return mixed(theme.background, theme.ink, PALEST + (1 - PALEST) * weight)
 
 
 def in_words(stencil: NamedStencil, n: int) -> str:

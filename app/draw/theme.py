@@ -13,6 +13,12 @@ from lessons.script import EXTRAORDINARY, Lesson, Meaning
 from subdivision import Role
 
 
+def mixed(a: Colour, b: Colour, t: float) -> Colour:
+    """``t`` of the way from ``a`` to ``b``."""
+    red, green, blue = (x + t * (y - x) for x, y in zip(a, b, strict=True))
+    return red, green, blue
+
+
 def rgb(code: str) -> Colour:
     """``#RRGGBB`` as numbers in 0..1."""
     r, g, b = (int(code[k : k + 2], 16) / 255 for k in (1, 3, 5))

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.draw.picture import Camera
+from app.draw.picture import Camera, unit
 from app.turn import Turn
 from subdivision.arrays import Floats
 
@@ -17,8 +17,8 @@ def turned(camera: Camera, turn: Turn) -> Camera:
     tall = _height(camera)
     if not camera.scale:
         away, up = _rotated(away, up, turn)
-    side = _unit(np.cross(up, away))
-    up = _unit(np.cross(away, side))
+    side = unit(np.cross(up, away))
+    up = unit(np.cross(away, side))
     focal = camera.focal + tall * (turn.right * side + turn.up * up)
     reach = 1.0 if camera.scale else 1 / turn.zoom
     return replace(camera, position=focal + reach * away, focal=focal, up=up, scale=camera.scale / turn.zoom)
@@ -40,7 +40,3 @@ def _height(camera: Camera) -> float:
     if camera.scale:
         return 2 * camera.scale
     return float(2 * np.linalg.norm(camera.position - camera.focal) * np.tan(np.radians(camera.angle) / 2))
-
-
-def _unit(vector: Floats) -> Floats:
-    return np.asarray(vector / max(float(np.linalg.norm(vector)), 1e-300), dtype=float)

@@ -6,8 +6,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QSizePolicy, QWidget
 
-from app.draw.theme import THEMES
-from app.gui.look import GRID, chosen_of, colour, icon, mixed
+from app.draw.theme import THEMES, mixed
+from app.gui.look import GRID, chosen_of, colour, icon
 from app.gui.session import Session
 from app.gui.timeline import tool_button
 from app.state import State

@@ -10,8 +10,8 @@ from PySide6.QtGui import QColor, QFocusEvent, QFont, QKeyEvent, QMouseEvent, QP
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app import boxlab
-from app.draw.theme import THEMES
-from app.gui.look import GRID, colour, line_of, mixed, type_face
+from app.draw.theme import THEMES, mixed
+from app.gui.look import GRID, colour, line_of, type_face
 from app.gui.session import Session
 from app.state import State
 from subdivision import Role

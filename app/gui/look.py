@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QApplication
 
 from app import ASSETS
 from app.draw.picture import Colour
-from app.draw.theme import THEMES, Theme
+from app.draw.theme import THEMES, Theme, mixed
 
 FAMILY = "Inter"
 GRID = 8
@@ -19,12 +19,6 @@ GRID = 8
 def colour(value: Colour, opacity: float = 1.0) -> QColor:
     """Qt's colour."""
     return QColor.fromRgbF(*value, opacity)
-
-
-def mixed(a: Colour, b: Colour, t: float) -> Colour:
-    """``t`` of the way from ``a`` to ``b``."""
-    red, green, blue = (x + t * (y - x) for x, y in zip(a, b, strict=True))
-    return red, green, blue
 
 
 def line_of(theme: Theme) -> Colour:

@@ -5,8 +5,8 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from app.draw.lattice import over_one, shade
-from app.draw.theme import THEMES
-from app.gui.look import GRID, colour, mixed, type_face
+from app.draw.theme import THEMES, mixed
+from app.gui.look import GRID, colour, type_face
 from app.gui.session import Session
 from subdivision.catalogue import Vectors
 from subdivision.continuity import mask

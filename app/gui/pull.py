@@ -8,8 +8,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 from PySide6.QtWidgets import QAbstractSlider, QSizePolicy
 
-from app.draw.theme import THEMES, Theme
-from app.gui.look import colour, line_of, mixed, type_face
+from app.draw.theme import THEMES, Theme, mixed
+from app.gui.look import colour, line_of, type_face
 from subdivision.catalogue import Parameter
 from subdivision.extraordinary import EQUAL, Special
 from subdivision.smoothness import Between

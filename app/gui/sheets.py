@@ -6,9 +6,9 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
-from app.draw.theme import THEMES, Theme
+from app.draw.theme import THEMES, Theme, mixed
 from app.gui.keys import COMMANDS, MOUSE, spelled_keys
-from app.gui.look import GRID, colour, line_of, mixed, type_face
+from app.gui.look import GRID, colour, line_of, type_face
 from app.gui.session import Session
 
 COLUMNS = (("Lesson", "Present"), ("View",), ("File", "Edit", "Help", "Mouse"))

@@ -4,8 +4,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QCheckBox, QVBoxLayout, QWidget
 
-from app.draw.theme import THEMES
-from app.gui.look import GRID, colour, line_of, mixed, type_face
+from app.draw.theme import THEMES, mixed
+from app.gui.look import GRID, colour, line_of, type_face
 from app.gui.session import Session
 from app.state import State, toggle
 

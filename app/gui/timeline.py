@@ -7,8 +7,8 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QMouseEvent,
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QToolTip, QWidget
 
 from app.draw.compose import said
-from app.draw.theme import THEMES
-from app.gui.look import GRID, colour, icon, mixed, type_face
+from app.draw.theme import THEMES, mixed
+from app.gui.look import GRID, colour, icon, type_face
 from app.gui.session import Session
 from app.state import Segment, State, axis_of, choose, seek, segments
 
