@@ -5,11 +5,14 @@ The new comes over the old, then the old leaves: at any time one of them is whol
 
 from dataclasses import replace
 from math import ceil, floor
+from typing import TypeVar
 
 from app.draw.compose import compose
 from app.draw.motion import eased
-from app.draw.picture import Diagram, Picture, Scene
+from app.draw.picture import Box, Diagram, Faces, Label, Lines, Link, Markers, Note, Picture, Scene
 from app.state import State
+
+Drawn = TypeVar("Drawn", Faces, Lines, Markers, Label, Box, Link, Note)
 
 
 def faded(state: State) -> Picture:
@@ -51,17 +54,21 @@ def _pale_scene(scene: Scene, part: float) -> Scene:
     """What is left of a scene when a ``part`` of its opacity is."""
     return replace(
         scene,
-        faces=tuple(replace(each, opacity=part * each.opacity) for each in scene.faces),
-        lines=tuple(replace(each, opacity=part * each.opacity) for each in scene.lines),
-        markers=tuple(replace(each, opacity=part * each.opacity) for each in scene.markers),
-        labels=tuple(replace(each, opacity=part * each.opacity) for each in scene.labels),
+        faces=_pale(scene.faces, part),
+        lines=_pale(scene.lines, part),
+        markers=_pale(scene.markers, part),
+        labels=_pale(scene.labels, part),
     )
 
 
 def _pale_diagram(diagram: Diagram, part: float) -> Diagram:
     return replace(
         diagram,
-        boxes=tuple(replace(each, opacity=part * each.opacity) for each in diagram.boxes),
-        links=tuple(replace(each, opacity=part * each.opacity) for each in diagram.links),
-        notes=tuple(replace(each, opacity=part * each.opacity) for each in diagram.notes),
+        boxes=_pale(diagram.boxes, part),
+        links=_pale(diagram.links, part),
+        notes=_pale(diagram.notes, part),
     )
+
+
+def _pale(drawn: tuple[Drawn, ...], part: float) -> tuple[Drawn, ...]:
+    return tuple(replace(each, opacity=part * each.opacity) for each in drawn)

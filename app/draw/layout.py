@@ -234,10 +234,15 @@ def _title_room(picture: Picture, height: float) -> float:
 def _pane_title(pane: Pane, area: Area, picture: Picture, height: float) -> list[Primitive]:
     if not pane.title:
         return []
-    size = PANE_TITLE * height / 1000 * picture.scale
-    wide = measure(pane.title, size, True)[0]
-    size = max(min(size, size * 0.94 * area[2] / wide), LEAST * height / 1000)
+    size = _fitted_size(pane.title, PANE_TITLE, area, picture, height)
     return [Text(area[0] + area[2] / 2, area[1] - 0.35 * size, pane.title, size, picture.muted, "center", bold=True)]
+
+
+def _fitted_size(words: str, wished: float, area: Area, picture: Picture, height: float) -> float:
+    """As large as wished, as far as the words then fit over or below their pane."""
+    size = wished * height / 1000 * picture.scale
+    wide = measure(words, size, True)[0]
+    return max(min(size, size * 0.94 * area[2] / wide), LEAST * height / 1000)
 
 
 def _reading_room(picture: Picture, height: float) -> float:
@@ -248,9 +253,7 @@ def _reading(pane: Pane, area: Area, picture: Picture, height: float) -> list[Pr
     """What was measured, in the middle below its pane."""
     if not pane.reading:
         return []
-    size = READING * height / 1000 * picture.scale
-    wide = measure(pane.reading, size, True)[0]
-    size = max(min(size, size * 0.94 * area[2] / wide), LEAST * height / 1000)
+    size = _fitted_size(pane.reading, READING, area, picture, height)
     x, y = area[0] + area[2] / 2, area[1] + area[3] + 0.95 * size
     return [Text(x, y, pane.reading, size, picture.ink, "center", bold=True)]
 

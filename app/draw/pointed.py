@@ -6,10 +6,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from app.draw.limits import is_whole, limit_of
 from app.state import Spot
-from subdivision import Stage, Stencil, Step, TopologyError, Trace
+from subdivision import Stencil, Step, TopologyError, Trace
 from subdivision.arrays import Floats
-from subdivision.limit import limit_stage
 
 ACROSS: Mapping[str, str] = {
     "stage": "one stage",
@@ -53,24 +53,12 @@ def row_of(trace: Trace, spot: Spot, across: str) -> Pointed | None:
 
 def _to_limit(trace: Trace, spot: Spot) -> Pointed:
     k = spot.stage
-    if 0 < k < len(trace.stages) and trace.levels[k] == trace.levels[k - 1]:
+    if not is_whole(trace, k):
         raise TopologyError("A limit is that of a whole level: go on to where this level ends.")
-    stage = _limit_stage(trace, k)
+    stage = limit_of(trace.scheme, trace.topology_at(k))
     rows = np.flatnonzero(stage.carries == spot.point)
     if not len(rows):
         raise TopologyError(f"v{spot.point} has no limit of its own: not all points around it exist.")
     row = Step((*trace.stages[:k], stage)).stencil(int(rows[0]))
     place = row.weights @ trace.points[0][row.parents]
     return Pointed(Stencil(spot.point, row.terms), k, k, place)
-
-
-def _limit_stage(trace: Trace, k: int) -> Stage:
-    if k not in (found := _limits(trace.stages)):
-        found[k] = limit_stage(trace.scheme, trace.topology_at(k))
-    return found[k]
-
-
-@lru_cache(maxsize=8)
-def _limits(stages: tuple[Stage, ...]) -> dict[int, Stage]:
-    """Limit stages found so far, by level's end; dragging a point changes none of them."""
-    return {}
