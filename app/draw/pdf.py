@@ -92,14 +92,14 @@ class Paper:
         self._file.close()
         return self._held.getvalue()
 
-    def _paint(self, pen: "_Pen", flat: Sequence[Primitive]) -> None:
+    def _paint(self, pen: "Pen", flat: Sequence[Primitive]) -> None:
         with rc_context({"pdf.fonttype": EMBEDDED}):
             for each in flat:
                 pen.paint(each)
 
-    def _pen(self, x: float, y: float, scale: float, room: Area | None = None) -> "_Pen":
+    def _pen(self, x: float, y: float, scale: float, room: Area | None = None) -> "Pen":
         onto = Affine2D().scale(scale, -scale).translate(x, self._height - y)
-        return _Pen(self._renderer, onto, room)
+        return Pen(self._renderer, onto, room)
 
     def _end_page(self) -> None:
         if self._renderer is not None:
@@ -119,7 +119,7 @@ class _Setting:
         return None
 
 
-class _Pen(Brush):
+class Pen(Brush):
     """Paints on a page, within ``room`` if it is given; type is set as type."""
 
     def __init__(self, canvas: Any, onto: Affine2D, room: Area | None) -> None:

@@ -1,7 +1,8 @@
 """A picture as pixels: panes in space from an off-screen window, everything flat painted over them by Agg.
 
 There is one off-screen window for the whole program; it changes its size but is not built anew.
-It needs no display: without one VTK is asked for EGL before it makes its first window.
+It needs no display: without one VTK is asked for EGL before it makes its first window.  Where there is no OpenGL
+at all, the shapes of the vector picture are filled in instead.
 """
 
 import os
@@ -37,11 +38,17 @@ def image(picture: Picture, width: int, height: int, *, transparent: bool = Fals
     canvas = _AGG(width, height, 72)
     pixels = np.asarray(canvas.buffer_rgba())
     pixels[:] = (0, 0, 0, 0) if transparent else (*_bytes(picture.background), 255)
-    for pane, (x, y, w, h) in zip(picture.panes, pane_areas(picture, width, height, words), strict=True):
-        if isinstance(pane.content, Scene):
-            size = int(w), int(h)
-            seen = _studio().picture(pane.content, picture.background, size, height, transparent=transparent)
-            pixels[int(y) : int(y + h), int(x) : int(x + w)] = seen
+    for pane, area in zip(picture.panes, pane_areas(picture, width, height, words), strict=True):
+        if not isinstance(pane.content, Scene):
+            continue
+        if (studio := _studio()) is None:
+            from app.draw.drawn import draw
+
+            draw(canvas, pane.content, area, height)
+            continue
+        x, y, w, h = area
+        seen = studio.picture(pane.content, picture.background, (int(w), int(h)), height, transparent=transparent)
+        pixels[int(y) : int(y + h), int(x) : int(x + w)] = seen
     brush = Brush(canvas, Affine2D().scale(1, -1).translate(0, height))
     for each in overlay(picture, width, height, words=words):
         brush.paint(each)
@@ -62,8 +69,6 @@ class _Studio:
     """The off-screen window."""
 
     def __init__(self) -> None:
-        if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
-            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
         import pyvista
         from vtkmodules.vtkCommonCore import vtkLogger
         from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
@@ -115,15 +120,20 @@ class _Studio:
 
 
 @cache
-def _studio() -> _Studio:
-    return _Studio()
+def _studio() -> _Studio | None:
+    """None where there is no OpenGL."""
+    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+        os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+    from app.draw.drawn import has_opengl
+
+    return _Studio() if has_opengl() else None
 
 
 def close() -> None:
     """Give the off-screen window back, as is needed before its display ends; the next picture makes another."""
-    if _studio.cache_info().currsize:
-        _studio().close()
-        _studio.cache_clear()
+    if _studio.cache_info().currsize and (studio := _studio()) is not None:
+        studio.close()
+    _studio.cache_clear()
 
 
 def _unmultiplied(pixels: Pixels) -> Pixels:
