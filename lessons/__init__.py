@@ -2,18 +2,36 @@
 
 import pkgutil
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from importlib import import_module
 
 from lessons.script import Lesson
 
 
-@cache
+_brought: tuple[Lesson, ...] = ()
+
+
 def all_lessons() -> tuple[Lesson, ...]:
-    """Every lesson in this folder, in the order of the lecture: by section, then by file name."""
+    """Every lesson of this folder and every one brought along, in order: by section, then by file name."""
+    return _in_order((*built_in(), *_brought))
+
+
+def bring(own: Iterable[Lesson]) -> None:
+    """From now on these are the lessons from elsewhere, instead of those brought before; their ids are new ones."""
+    global _brought  # the one registry beside the modules that Python itself has imported
+    _brought = tuple(own)
+
+
+@cache
+def built_in() -> tuple[Lesson, ...]:
+    """Every lesson in this folder."""
     modules = [import_module(f"lessons.{m.name}") for m in pkgutil.iter_modules(__path__) if m.name != "script"]
     found = [value for module in modules for value in vars(module).values() if isinstance(value, Lesson)]
+    return _in_order(found)
+
+
+def _in_order(found: Iterable[Lesson]) -> tuple[Lesson, ...]:
     return tuple(sorted(found, key=lambda each: (each.section, each.id)))
 
 

@@ -7,6 +7,7 @@ from lessons.script import Beat, Look, View, lesson, show, side_by_side
 from subdivision import Grid, Trace, shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import tensor_product
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-62.0, elevation=56.0)
 S_FIRST, T_FIRST = "s, then t", "t, then s"
@@ -18,7 +19,7 @@ def exercise_1a_either_order(degree: int = 1) -> Iterator[Beat]:
     scheme = tensor_product(degree, degree, shuffled)
     s_first, t_first = trace(scheme, net, S_FIRST), trace(scheme, net, T_FIRST)
     four_times = trace(scheme, net, "quadruple, then average")
-    in_turns = trace(scheme, net, f"quadruple, then {shuffled}")
+    in_turns = trace(scheme, net, phrase("quadruple, then {shuffled}", shuffled=shuffled))
     half, end, other_end = degree + 1, 2 * degree + 2, 2 * degree + 1
     weights = s_first.whole.stencil(middle(s_first))
     times = {1: "once", 2: "twice", 3: "three times"}[degree]
@@ -31,7 +32,8 @@ def exercise_1a_either_order(degree: int = 1) -> Iterator[Beat]:
 
     yield side_by_side("One net, told twice: along s before t on the left, along t before s on the right.", *both(0, 0),
                        look=LOOK, claim=s_first.control is t_first.control)
-    yield side_by_side(f"Split, and average {times}: the left net has grown along s, the right one along t.",
+    yield side_by_side(phrase("Split, and average {times}: the left net has grown along s, the right one along t.",
+                              times=times),
                        *both(0, half), look=LOOK,
                        notes="Half way the two arrays have different shapes. Ask whether they can still agree.",
                        claim=s_first.topology_at(half) == Grid(8 - degree, 4)
@@ -55,7 +57,8 @@ def exercise_1a_either_order(degree: int = 1) -> Iterator[Beat]:
                        claim=four_times.stages[0].n_points == 4 * 16)
     yield show(four_times, four_times.stages[-1], "The same net again, to the last point.", look=LOOK,
                over=View(s_first, end, end), reading=difference, claim=same_rows(s_first, four_times))
-    yield show(in_turns, in_turns.stages[-1], f"Shuffle the averages, {' '.join(shuffled)}: still the same.", look=LOOK,
+    yield show(in_turns, in_turns.stages[-1],
+               phrase("Shuffle the averages, {order}: still the same.", order=" ".join(shuffled)), look=LOOK,
                over=View(s_first, end, end), reading=difference,
                notes="Any order will do, as long as each point is split before it is averaged.",
                claim=same_rows(s_first, in_turns))

@@ -7,6 +7,7 @@ from lessons.script import Beat, Look, View, lesson, show, side_by_side
 from subdivision import Scheme, Trace, shapes, trace
 from subdivision.passes import Vector, as_grid, average, told
 from subdivision.schemes import THREE_DIRECTION_QUARTIC, box_spline
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-62.0, elevation=56.0)
 V: Vector = (1, 0)
@@ -33,7 +34,8 @@ def exercise_1b_two_averages(w_s: int = 1, w_t: int = 1) -> Iterator[Beat]:
     def both(start: int, stop: int) -> tuple[View, View]:
         return View(v_first, start, stop, title=V_FIRST), View(w_first, start, stop, title=W_FIRST)
 
-    yield show(v_first, None, f"A net, and two vectors: v = ({V[0]},{V[1]}) and w = ({w_s},{w_t}).", look=LOOK,
+    yield show(v_first, None, phrase("A net, and two vectors: v = ({v_s},{v_t}) and w = ({w_s},{w_t}).",
+                                     v_s=V[0], v_t=V[1], w_s=w_s, w_t=w_t), look=LOOK,
                marks=names, notes="Turn the knobs for another w; what follows holds for all of them.",
                claim=len(set(four)) == 4)
     yield side_by_side("Left: average each point with its neighbour along v. Right: along w.", *both(0, 1), look=LOOK,

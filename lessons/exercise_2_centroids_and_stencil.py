@@ -8,6 +8,7 @@ from lessons.script import Beat, Look, View, fragment, lesson, play, show, side_
 from subdivision import Stencil, Trace, shapes, trace
 from subdivision.exact import Row, add_rows
 from subdivision.schemes import QUAD_CENTROID
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-70.0, elevation=58.0)
 VERTEX = 0
@@ -27,7 +28,7 @@ def exercise_2_centroids_and_stencil(valence: int = 5) -> Iterator[Beat]:
     def both(left: tuple[int, int], right: tuple[int, int]) -> tuple[View, View]:
         return View(averaged, *left, title="centroid averaging"), View(by_stencils, *right, title="simple stencil")
 
-    yield show(told, None, f"A vertex with {valence} quads around it.", look=LOOK,
+    yield show(told, None, phrase("A vertex with {valence} quads around it.", valence=valence), look=LOOK,
                claim=told.control.topology.valence[VERTEX] == valence)
     yield play(told, topology, "Topology: a point on every edge and one on every face.", look=LOOK,
                formula=r"$\dfrac{V + E_i}{2},\quad \dfrac{V + E_i + F_i + E_{i+1}}{4}$",
@@ -48,7 +49,8 @@ def exercise_2_centroids_and_stencil(valence: int = 5) -> Iterator[Beat]:
                look=LOOK, stencil=two, span=3,
                formula=r"$2 \times (9 + 3 + 3 + 1)$",
                claim=sixteenths(two, valence) == [1, 1, 3, 3, 6, 18])
-    yield show(told, geometry, f"All {valence}: every neighbour was counted twice. This is the simple stencil.",
+    yield show(told, geometry,
+               phrase("All {valence}: every neighbour was counted twice. This is the simple stencil.", valence=valence),
                look=LOOK, stencil=all_of_them, span=3, poster=True,
                formula=r"$\dfrac{9n\,V + 6 \sum E_i + \sum F_i}{16\,n}$",
                notes="9n + 6n + n = 16n, so the weights sum to one, whatever the valence.",

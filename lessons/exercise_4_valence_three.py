@@ -10,6 +10,7 @@ from subdivision import Mesh, Scheme, Topology, Trace, shapes, trace
 from subdivision.measure import angle_sum
 from subdivision.schemes import LOOP, TRIANGLE_CENTROID
 from subdivision.spectrum import ring, stencil_by_valence
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-78.0, elevation=12.0)
 TIP, LEVELS = 3, 5
@@ -66,7 +67,7 @@ def told_in_two(scheme: Scheme, control: Mesh, levels: int) -> Trace:
 
 def magnifications(meshes: list[Mesh], *which: int) -> tuple[View, ...]:
     """The tip at some levels, side by side."""
-    names = [f"level {k}, ×{4**k}" if k else "level 0" for k in which]
+    names = [phrase("level {k}, ×{zoom}", k=k, zoom=4**k) if k else "level 0" for k in which]
     return tuple(View(still(magnified(meshes[k], k)), 0, 0, title=name, reading=angles_at(0))
                  for k, name in zip(which, names, strict=True))
 

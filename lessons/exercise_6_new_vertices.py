@@ -9,6 +9,7 @@ from lessons.script import Beat, Look, View, fragment, lesson, side_by_side
 from subdivision import Trace, shapes, trace
 from subdivision.rows import shown_faces
 from subdivision.schemes import QUAD_CENTROID, TRIANGLE_CENTROID
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-80.0, elevation=62.0)
 CENTRE = 0
@@ -28,7 +29,8 @@ def exercise_6_new_vertices(valence: int = 5) -> Iterator[Beat]:
         return tuple(View(told, start, stop, title=title, marks=valences(told, stop) if born else centre(told))
                      for told, title in zip(pair, ("quads", "triangles"), strict=True))
 
-    yield side_by_side(f"One vertex of valence {valence} on either side.", *both(0, 0, born=False), look=LOOK,
+    yield side_by_side(phrase("One vertex of valence {valence} on either side.", valence=valence),
+                       *both(0, 0, born=False), look=LOOK,
                        claim=all(told.control.surface.valence[CENTRE] == valence for told in pair))
     yield side_by_side("Topology. Count the edges at the new vertices.", *both(0, 1, born=False), look=LOOK,
                        claim=not any(told.stages[0].moves for told in pair))

@@ -6,6 +6,7 @@ from math import comb
 from lessons.script import Beat, lesson, play, show, with_diagram
 from subdivision import Stencil, Trace, shapes
 from subdivision.schemes import lane_riesenfeld
+from subdivision.words import phrase
 
 TELLING = "split and average"
 AVERAGE = r"$U_k \leftarrow \dfrac{U_k + U_{k+1}}{2}$"
@@ -19,7 +20,7 @@ def figure_01_lane_riesenfeld(degree: int = 3) -> Iterator[Beat]:
     n, last = told.control.topology.n_vertices, told.stages[-1]
     middle = told.whole.stencil((last.n_points - 1) // 2 | 1)
 
-    yield with_diagram(show(told, None, f"A control polygon: {COUNTS[n]} points in a row.",
+    yield with_diagram(show(told, None, phrase("A control polygon: {count} points in a row.", count=COUNTS[n]),
                             notes="A subdivision procedure takes a control object and gives a finer one of the same "
                             "kind. Here it is the simplest one: a list of points.",
                             claim=n == len(told.control.points)))
@@ -43,18 +44,21 @@ def figure_01_lane_riesenfeld(degree: int = 3) -> Iterator[Beat]:
                                 "parents; follow the strokes down to the base.",
                                 claim=more[1].n_points == more[0].n_points - 1))
     if degree > 3:
-        yield with_diagram(play(told, more[2], f"And so on: {degree} averages make a curve of degree {degree}.",
+        yield with_diagram(play(told, more[2],
+                                phrase("And so on: {degree} averages make a curve of degree {degree}.", degree=degree),
                                 until=last, formula=AVERAGE,
-                                notes=f"{n} points become {last.n_points}. A polygon grows from step to step only if "
-                                "it has more points than the degree; this one has too few to be subdivided for ever.",
+                                notes=phrase("{n} points become {points}. A polygon grows from step to step only if it "
+                                             "has more points than the degree; this one has too few to be subdivided "
+                                             "for ever.", n=n, points=last.n_points),
                                 claim=len(told.stages) == degree + 1))
-    yield with_diagram(show(told, last, "Doubled, less one for every average: "
-                            f"{n} points become {last.n_points}.",
+    yield with_diagram(show(told, last, phrase("Doubled, less one for every average: {n} points become {points}.",
+                                               n=n, points=last.n_points),
                             formula=r"$N \rightarrow 2N - n$",
                             notes="The number of polynomial pieces, N - n, doubles exactly.",
                             claim=last.n_points == 2 * n - degree and last.n_points - degree == 2 * (n - degree)))
-    yield with_diagram(show(told, last, f"Read one box: every second number in row {degree + 1} of Pascal’s "
-                            f"triangle, over {2**degree}.", stencil=middle, span=degree + 1,
+    yield with_diagram(show(told, last, phrase("Read one box: every second number in row {row} of Pascal’s triangle, "
+                                               "over {denominator}.", row=degree + 1, denominator=2**degree),
+                            stencil=middle, span=degree + 1,
                             formula=spelled(middle, degree),
                             notes="The two kinds of boxes take the even and the odd entries; each of them sums to "
                             "one. For degree 3 these two rows are the stencils of Figure 17.",

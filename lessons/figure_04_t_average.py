@@ -8,6 +8,7 @@ from lessons.script import Beat, Look, before_and_after, lesson, play, show, wit
 from subdivision import Trace, shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import lane_riesenfeld, tensor_product
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.88)
 TIMES = {1: "once", 2: "twice", 3: "three times"}
@@ -21,23 +22,25 @@ def figure_04_t_average(m: int = 1, n: int = 1) -> Iterator[Beat]:
     split_t, first, last = told.stages[m + 1], told.stages[m + 2], told.stages[-1]
     before, after = as_grid(split_t.topology), as_grid(last.topology)
     middle = told.whole.stencil(int(after.numbers[1, 1]))
-    name = NAMES.get((m, n), f"bidegree ({m},{n})")
+    name = NAMES.get((m, n), phrase("bidegree ({m},{n})", m=m, n=n))
     panels = "averaged in s, split in t", "averaged in t"
     start = ("The array of Figure 3: split and averaged in s, then split in t." if m == 1 else
-             f"Like Figure 3, but averaged {TIMES[m]} in s before the split in t.")
+             phrase("Like Figure 3, but averaged {times} in s before the split in t.", times=TIMES[m]))
 
     yield with_diagram(show(told, split_t, start, look=LOOK,
                             notes="For Figure 3 itself both knobs stand at 1. Every average in s has made the array "
                             "one column narrower.",
                             claim=before.shape == (2 * old(told)[0] - m, 2 * old(told)[1])))
-    yield before_and_after(play(told, first, f"Average {TIMES[n]} in the t-direction: now t is done as s was.",
+    yield before_and_after(play(told, first, phrase("Average {times} in the t-direction: now t is done as s was.",
+                                                    times=TIMES[n]),
                                 until=last, look=LOOK, formula=r"$U_{ij} \leftarrow \dfrac{U_{ij} + U_{i,j+1}}{2}$",
                                 notes="Bilinear: originals, edge midpoints and face centroids; the surface keeps its "
                                 "shape. The lecture's label is: average in the t-direction.",
                                 claim=after.shape == (before.n_s, before.n_t - n)
                                 and ((m, n) != (1, 1) or set(last.roles) == {0, 1, 2})),
                            split_t, *panels)
-    yield before_and_after(show(told, last, f"One box of the {name} surface, and where it comes from.", look=LOOK,
+    yield before_and_after(show(told, last,
+                                phrase("One box of the {name} surface, and where it comes from.", name=name), look=LOOK,
                                 stencil=middle, span=len(told.stages), formula=FORMULAS.get((m, n), PRODUCT),
                                 notes="Each weight is the product of a curve's weight in s and one in t. Hover other "
                                 "boxes: for bilinear there are three kinds, for higher bidegree up to four.",

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from lessons.script import Beat, Look, at_rest, fragment, lesson, play, show, side_by_side
 from subdivision import Role, shapes, trace
 from subdivision.schemes import QUAD_CENTROID
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-70.0, elevation=58.0)
 PANES = Look(azimuth=-70.0, elevation=58.0, zoom=0.88)
@@ -22,11 +23,12 @@ def figure_13_extraordinary_vertex(valence: int = 6) -> Iterator[Beat]:
     before, after = ((t.n_vertices, t.n_edges, t.n_faces) for t in (alone.control.topology, alone.topology_at(3)))
     inside = ~told.mesh_at(1).surface.on_boundary
     row = told.whole.stencil(0)
-    kind = "An ordinary vertex" if n == 4 else "An extraordinary vertex"
     marks = ((0, f"n = {n}"),)
 
-    yield show(told, None, f"(a) {kind}: {n} quads meet at it" + ("." if n == 4 else ", not four."), look=LOOK,
-               marks=marks, notes="The valence is a knob: turn it to 4 and everything below is the bicubic case.",
+    yield show(told, None, phrase("(a) An ordinary vertex: {n} quads meet at it." if n == 4 else
+                                  "(a) An extraordinary vertex: {n} quads meet at it, not four.", n=n),
+               look=LOOK, marks=marks,
+               notes="The valence is a knob: turn it to 4 and everything below is the bicubic case.",
                claim=told.control.topology.valence[0] == n and before == (2 * n + 1, 3 * n, n))
     yield play(told, topology, "(b) New topology: a point on every edge and every face. Each new one has valence four.",
                look=LOOK, marks=marks,
@@ -36,8 +38,9 @@ def figure_13_extraordinary_vertex(valence: int = 6) -> Iterator[Beat]:
                and set(topology.topology.valence[topology.born][inside[topology.born]]) == {4})
     yield play(told, centroids, "Mark the centroid of every small face: the {centroid} helpers, not vertices.",
                look=LOOK, claim=len(centroids.born) == topology.topology.n_faces)
-    yield play(told, geometry, f"(c) New geometry: the middle moves to the centroid of {n} helpers, all others of "
-               "four.", look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
+    yield play(told, geometry, phrase("(c) New geometry: the middle moves to the centroid of {n} helpers, all others "
+                                      "of four.", n=n), look=LOOK,
+               formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
                notes="The pale helpers show what every vertex is now amid. The lecture does not colour the last "
                "position.",
                claim=geometry.matrix[[0]].nnz == n and all(geometry.matrix[[v]].nnz == 4 for v in topology.born[:n]))
@@ -48,6 +51,6 @@ def figure_13_extraordinary_vertex(valence: int = 6) -> Iterator[Beat]:
                claim=sorted(16 * n * row.weights) == [1.0] * n + [6.0] * n + [9.0 * n])
     yield side_by_side("One level: the vertex is extraordinary as before, and farther from any other." if n != 4 else
                        "One level: valence four everywhere, so this is the bicubic case.",
-                       *at_rest(told, (0, f"(a) {kind.split(' ', 1)[1].capitalize()}"), (1, "(b) New topology"),
-                                (3, "(c) New geometry")),
+                       *at_rest(told, (0, "(a) Ordinary vertex" if n == 4 else "(a) Extraordinary vertex"),
+                                (1, "(b) New topology"), (3, "(c) New geometry")),
                        look=PANES, claim=geometry.topology.valence[0] == n)

@@ -8,6 +8,7 @@ import numpy as np
 from lessons.script import Beat, Look, beside, fragment, lesson, play, show, side_by_side, stencil_of
 from subdivision import Stencil, shapes, trace
 from subdivision.schemes import QUAD_CENTROID, tensor_product
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-68.0, elevation=50.0)
 
@@ -18,7 +19,7 @@ def figure_19_bicubic_stencils() -> Iterator[Beat]:
     star = trace(QUAD_CENTROID, shapes.quad_star(4))
     spoke = np.flatnonzero((star.control.topology.ends == 0).any(axis=1))[0]
     points = {"face": 9, "edge": 13 + int(spoke), "vertex": 0}
-    face, edge, vertex = (stencil_of(star, p, f"({x}) {name} stencil")
+    face, edge, vertex = (stencil_of(star, p, phrase("({x}) {name} stencil", x=x, name=name))
                           for x, (name, p) in zip("abc", points.items(), strict=True))
     told = trace(QUAD_CENTROID, fragment(shapes.quad_fan(4, rings=2)), "stencils")
     faces, edges, vertices, connect = told.stages

@@ -11,6 +11,7 @@ from subdivision import Mesh, Stencil, Trace, shapes, subdivide, trace
 from subdivision.limit import to_limit
 from subdivision.roundness import ball_at, radius_ratio
 from subdivision.schemes import CATMULL_CLARK, QUAD_CENTROID
+from subdivision.words import phrase
 
 ABOVE, CORNER = Look(azimuth=-70.0, elevation=32.0), Look(azimuth=38.0, elevation=28.0)
 RULES = (QUAD_CENTROID, CATMULL_CLARK)
@@ -29,7 +30,8 @@ def figure_20_vertex_stencils(valence: int = 6) -> Iterator[Beat]:
     limits = [to_limit(trace(rule, subdivide(shapes.cube(), rule, 2), "stencils")) for rule in RULES]
     ring = np.arange(1, dome.topology.n_vertices)
 
-    yield side_by_side(f"A vertex of valence {n}: two ways to weigh its {n} neighbours and {n} opposite corners.",
+    yield side_by_side(phrase("A vertex of valence {n}: two ways to weigh its {n} neighbours and {n} opposite corners.",
+                              n=n),
                        stencil_of(stars[0], 0, "(a) simple vertex stencil"),
                        stencil_of(stars[1], 0, "(b) Catmull-Clark stencil"), poster=True,
                        formula=r"$\frac{9}{16},\ \frac{6}{16n},\ \frac{1}{16n}\qquad\quad"
@@ -41,7 +43,8 @@ def figure_20_vertex_stencils(valence: int = 6) -> Iterator[Beat]:
                        and _weights(clark, n) == (1 - Fraction(7, 4 * n), Fraction(3, 2 * n**2), Fraction(1, 4 * n**2))
                        and all(sum(weight for _, weight in row.terms) == 1 for row in (simple, clark)))
     yield side_by_side("At valence 4 both are the bicubic stencil: 36, 6 and 1 sixty-fourths.",
-                       *(stencil_of(told, 0, f"{name}, n = 4") for told, name in zip(squares, NAMES, strict=True)),
+                       *(stencil_of(told, 0, phrase("{name}, n = 4", name=name))
+                         for told, name in zip(squares, NAMES, strict=True)),
                        claim=all(_weights(told.whole.stencil(0), 4) == tuple(Fraction(w, 64) for w in (36, 6, 1))
                                  for told in squares))
     yield side_by_side("The same star, raised onto a ball. Face points and edge points: no difference between the two.",
@@ -90,12 +93,12 @@ def _drift(told: Trace) -> float:
 
 
 def _ball(mesh: Mesh) -> str:
-    return f"ball at the tip: radius {ball_at(mesh, 0):.2g}"
+    return phrase("ball at the tip: radius {radius:.2g}", radius=ball_at(mesh, 0))
 
 
 def _corner(mesh: Mesh) -> str:
-    return f"corner at {mesh.points[7, 0]:.3f}"
+    return phrase("corner at {x:.3f}", x=mesh.points[7, 0])
 
 
 def _ratio(mesh: Mesh) -> str:
-    return f"farthest / nearest: {radius_ratio(mesh.points):.3f}"
+    return phrase("farthest / nearest: {ratio:.3f}", ratio=radius_ratio(mesh.points))

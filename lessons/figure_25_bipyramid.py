@@ -7,6 +7,7 @@ from lessons.measured import without_helpers
 from lessons.script import Beat, Look, lesson, levels, play, show, side_by_side
 from subdivision import shapes, trace
 from subdivision.schemes import TRIANGLE_CENTROID
+from subdivision.words import phrase
 
 LOOK = Look(azimuth=-70.0, elevation=26.0)
 
@@ -26,7 +27,8 @@ def figure_25_bipyramid(sides: int = 8) -> Iterator[Beat]:
     in_front = max(range(n), key=lambda v: bipyramid.points[v] @ (0.34, -0.94, 0.0))
     marks = ((n, f"n = {n}"), (in_front, "n = 4"))
 
-    yield show(told, None, f"Two pyramids on {n} sides: valence {n} at the poles, valence four round the ring.",
+    yield show(told, None, phrase("Two pyramids on {n} sides: valence {n} at the poles, valence four round the ring.",
+                                  n=n),
                look=LOOK, marks=marks, notes="Six would be ordinary. Ask what a pole with many sides will look like.",
                claim=list(bipyramid.topology.valence) == [4] * n + [n, n])
     yield play(told, topology, "Topology: old valences stay; every new vertex has valence six.", look=LOOK, marks=marks,
@@ -35,11 +37,13 @@ def figure_25_bipyramid(sides: int = 8) -> Iterator[Beat]:
                claim=len(centroids.born) == 3 * topology.topology.n_faces)
     yield play(told, geometry, "Geometry: every vertex moves to the centroid of its own.", look=LOOK, marks=marks,
                formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$", claim=geometry.moves)
-    yield play(deep, deep.stages[2], f"Two more levels. {special} extraordinary vertices, each among ordinary ones.",
+    yield play(deep, deep.stages[2], phrase("Two more levels. {special} extraordinary vertices, each among ordinary "
+                                            "ones.", special=special),
                until=deep.stages[5], look=LOOK,
                claim=int(deep.mesh_at(6).surface.extraordinary.sum()) == special
                and is_isolated(deep.mesh_at(6).surface))
-    yield side_by_side(f"From {2 * n} triangles to {128 * n}. C² but at the marked vertices, and C¹ there.",
+    yield side_by_side(phrase("From {few} triangles to {many}. C² but at the marked vertices, and C¹ there.",
+                              few=2 * n, many=128 * n),
                        *levels(deep, 0, 1, 2, 3), look=LOOK,
                        notes="The ring is pointed at valence four, the poles are flat where many triangles meet. At "
                        "valence three it would be worse: only C0 is guaranteed. See the tetrahedron.",

@@ -8,16 +8,17 @@ import numpy as np
 from lessons.script import Reading
 from subdivision import Mesh, Stage, Trace
 from subdivision.measure import angle_sum, counts, edges_apart, largest_distance, largest_gap
+from subdivision.words import phrase, plural
 
 
 def difference(a: Mesh, b: Mesh) -> str:
     """The distance between points of the same number, where it is largest; rounding errors below 1e-12 are 0."""
-    return f"largest difference {_rounded(largest_distance(a, b))}"
+    return phrase("largest difference {distance}", distance=_rounded(largest_distance(a, b)))
 
 
 def gap(a: Mesh, b: Mesh) -> str:
     """How far the points of ``b`` are from the nearest of ``a``, where they are farthest: for other numberings."""
-    return f"largest difference {_rounded(largest_gap(b.points, a.points))}"
+    return phrase("largest difference {distance}", distance=_rounded(largest_gap(b.points, a.points)))
 
 
 def counted(mesh: Mesh) -> str:
@@ -28,13 +29,15 @@ def counted(mesh: Mesh) -> str:
 
 def angles_at(vertex: int) -> Reading:
     """The angle sum at a vertex."""
-    return lambda mesh: f"angle sum {angle_sum(mesh, vertex):.2f}°"
+    return lambda mesh: phrase("angle sum {angle:.2f}°", angle=angle_sum(mesh, vertex))
 
 
 def isolation(mesh: Mesh) -> str:
     """How many extraordinary vertices there are, and how many edges the nearest two are apart."""
     edges = nearest(mesh)
-    return f"{mesh.surface.extraordinary.sum()} extraordinary, {edges} edge{'s' * (edges != 1)} apart"
+    special = int(mesh.surface.extraordinary.sum())
+    return plural("{n} extraordinary, {edges} edge apart", "{n} extraordinary, {edges} edges apart", edges,
+                  n=special, edges=edges)
 
 
 def nearest(mesh: Mesh) -> int:

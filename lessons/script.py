@@ -14,7 +14,9 @@ from typing import Any, TypeAlias, TypedDict, Unpack
 
 import numpy as np
 
+from lessons.questions import Question, Which, checked
 from subdivision import Boundary, Mesh, Role, Stage, Stencil, Trace
+from subdivision.words import phrase
 
 
 class Kind(Enum):
@@ -67,6 +69,8 @@ class View:
         A measurement of what the pane shows, live, written below it.
     isophotes : bool
         Draw no net but the lines along which the surface leans equally far from the light.
+    veiled : bool
+        Its stencil is asked for: neither it nor its weights are shown.
     """
 
     trace: Trace
@@ -81,6 +85,7 @@ class View:
     over: "View | None" = None
     reading: Reading | None = None
     isophotes: bool = False
+    veiled: bool = False
 
     def at(self, progress: float) -> float:
         """The stage position at ``progress`` (0..1) through the beat."""
@@ -108,6 +113,10 @@ class Beat:
         What the text asserts about the numbers; the tests require it.
     poster : bool
         Whether its end is the picture that stands for the lesson; else that is the end of the last beat.
+    predict : Question or None
+        What the class is asked before it sees the beat, where questions are asked.
+    asks : Question or None
+        What this beat asks and the next one answers.
     """
 
     text: str
@@ -117,6 +126,8 @@ class Beat:
     look: Look = Look()
     claim: bool = True
     poster: bool = False
+    predict: Question | None = None
+    asks: Question | None = None
 
     @property
     def lead(self) -> View:
@@ -178,6 +189,8 @@ class Lesson:
         The colours the lecture's caption names, where they differ from the house's: ``{Role.EDGE: "yellow"}``.
     knobs : tuple of Knob
         What the user may change; ``values`` are what they stand at.
+    asks : bool
+        Whether its questions are beats of their own.
     """
 
     id: str
@@ -188,10 +201,13 @@ class Lesson:
     colours: Mapping[Meaning, str] = field(default_factory=dict)
     knobs: tuple[Knob, ...] = ()
     values: tuple[int, ...] = ()
-    _turned: dict[tuple[int, ...], "Lesson"] = field(default_factory=dict, repr=False)
+    asks: bool = False
+    _turned: dict[tuple[object, ...], "Lesson"] = field(default_factory=dict, repr=False)
 
     @cached_property
     def beats(self) -> tuple[Beat, ...]:
+        if self.asks:
+            return tuple(each for beat in self.asking(False).beats for each in _asked_first(beat))
         return tuple(self.script(**self.settings))
 
     @property
@@ -203,8 +219,17 @@ class Lesson:
         """The lesson with some knobs at other values, held within their limits; the same object for the same values."""
         wanted = {**self.settings, **settings}
         values = tuple(min(max(wanted[k.name], k.least), k.most) for k in self.knobs)
-        self._turned.setdefault(self.values, self)
-        return self._turned.setdefault(values, replace(self, values=values))
+        return self._other(values, self.asks)
+
+    def asking(self, on: bool) -> "Lesson":
+        """The lesson with its questions as beats of their own, or without; itself where it has none."""
+        if on == self.asks or (on and not any(beat.predict for beat in self.beats)):
+            return self
+        return self._other(self.values, on)
+
+    def _other(self, values: tuple[int, ...], asks: bool) -> "Lesson":
+        self._turned.setdefault((*self.values, self.asks), self)
+        return self._turned.setdefault((*values, asks), replace(self, values=values, asks=asks))
 
 
 def lesson(
@@ -237,6 +262,7 @@ class Said(TypedDict, total=False):
     look: Look
     claim: bool
     poster: bool
+    predict: Question | None
     title: str
     stencil: Stencil | None
     span: int
@@ -285,7 +311,7 @@ def at_rest(trace: Trace, *panes: tuple[int, str]) -> tuple[View, ...]:
 
 def levels(trace: Trace, *which: int) -> tuple[View, ...]:
     """The control object and some levels of it as panes, each with its name above it."""
-    return at_rest(trace, *((trace.begins(k), f"level {k}" if k else "control points") for k in which))
+    return at_rest(trace, *((trace.begins(k), phrase("level {k}", k=k) if k else "control points") for k in which))
 
 
 def fragment(mesh: Mesh) -> Mesh:
@@ -308,6 +334,28 @@ def before_and_after(beat: Beat, stage: Stage, before: str, after: str) -> Beat:
     trace = beat.lead.trace
     at = trace.index(stage) + 1
     return beside(beat, View(trace, at, at, Kind.DIAGRAM, before), diagram_of(beat, after))
+
+
+def _asked_first(beat: Beat) -> tuple[Beat, ...]:
+    return (beat,) if beat.predict is None else (question_of(beat), beat)
+
+
+def question_of(beat: Beat) -> Beat:
+    """The still that asks what a beat answers: its views as they stand before it, or pictures to choose from."""
+    asked = checked(beat)
+    views = (
+        tuple(replace(v, title=str(k), look=v.look or beat.look, reading=None) for k, v in enumerate(asked.panes, 1))
+        if isinstance(asked, Which)
+        else tuple(_before(view, beat.is_still) for view in beat.views)
+    )
+    return Beat(asked.text, views, look=beat.look, asks=asked)
+
+
+def _before(view: View, is_still: bool) -> View:
+    """A view as it stands before its beat, its stencil veiled but still seen by the camera; of a still, just the mesh."""
+    over = None if is_still or view.over is None else _before(view.over, is_still)
+    span = view.span - int(view.stop - view.start)
+    return replace(view, stop=view.start, span=span, veiled=True, over=over, reading=None if is_still else view.reading)
 
 
 def _beat(trace: Trace, stretch: tuple[float, float], text: str, said: Said) -> Beat:

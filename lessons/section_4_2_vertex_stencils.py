@@ -12,6 +12,7 @@ from subdivision.limit import to_limit
 from subdivision.roundness import ball_at, radius_ratio
 from subdivision.schemes import LOOP, LOOP_WARREN, TRIANGLE_CENTROID
 from subdivision.schemes.loop import loop_beta
+from subdivision.words import phrase
 
 ABOVE, FRONT = Look(azimuth=-70.0, elevation=32.0), Look(azimuth=25.0, elevation=22.0)
 RULES = (TRIANGLE_CENTROID, LOOP)
@@ -31,7 +32,8 @@ def section_4_2_vertex_stencils(valence: int = 5) -> Iterator[Beat]:
     three = [trace(rule, shapes.triangle_star(3), "stencils") for rule in (TRIANGLE_CENTROID, LOOP_WARREN, LOOP)]
     limits = [to_limit(trace(rule, subdivide(shapes.octahedron(), rule, 3), "stencils")) for rule in RULES]
 
-    yield side_by_side(f"A vertex of valence {n}: two ways to weigh its {n} neighbours. Edge points stay as they were.",
+    yield side_by_side(phrase("A vertex of valence {n}: two ways to weigh its {n} neighbours. Edge points stay as they "
+                              "were.", n=n),
                        stencil_of(stars[0], 0, "(a) simple vertex stencil"),
                        stencil_of(stars[1], 0, "(b) Loop’s stencil"),
                        formula=r"$\beta=\frac{3}{8n}\qquad"
@@ -43,7 +45,8 @@ def section_4_2_vertex_stencils(valence: int = 5) -> Iterator[Beat]:
                        and _weights(loop, n) == (1 - n * loop_beta(n), loop_beta(n))
                        and all(abs(row.weights.sum() - 1) < 1e-15 for row in (simple, loop)))
     yield side_by_side("At valence 6 both are the quartic box spline: ten sixteenths, and one of each neighbour.",
-                       *(stencil_of(told, 0, f"{name}, n = 6") for told, name in zip(regular, NAMES, strict=True)),
+                       *(stencil_of(told, 0, phrase("{name}, n = 6", name=name))
+                         for told, name in zip(regular, NAMES, strict=True)),
                        claim=all(_weights(told.whole.stencil(0), 6) == (Fraction(10, 16), Fraction(1, 16))
                                  for told in regular))
     yield side_by_side("Valence 3 is special. Loop and Warren weigh a neighbour 3/16, the simple rule only 1/8.",
@@ -90,8 +93,8 @@ def _drift(told: Trace) -> float:
 
 
 def _ball(mesh: Mesh) -> str:
-    return f"ball at the tip: radius {ball_at(mesh, 0):.2g}"
+    return phrase("ball at the tip: radius {radius:.2g}", radius=ball_at(mesh, 0))
 
 
 def _ratio(mesh: Mesh) -> str:
-    return f"farthest / nearest: {radius_ratio(mesh.points):.3f}"
+    return phrase("farthest / nearest: {ratio:.3f}", ratio=radius_ratio(mesh.points))

@@ -12,6 +12,7 @@ from subdivision import schemes
 from subdivision.manifold import TopologyError
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
+from subdivision.words import phrase
 
 Vectors: TypeAlias = tuple[tuple[int, int], ...]
 
@@ -102,10 +103,19 @@ def scheme(name: str, parameters: tuple[Value, ...] = ()) -> Scheme:
         For a name that is not there, or parameters the family refuses.
     """
     if name not in FAMILIES:
-        raise TopologyError(f"there is no scheme '{name}'; there are {', '.join(FAMILIES)}")
+        raise TopologyError(
+            phrase("there is no scheme '{name}'; there are {names}", name=name, names=", ".join(FAMILIES))
+        )
     family = FAMILIES[name]
     if parameters and len(parameters) != len(family.parameters):
-        raise TopologyError(f"{family.title} takes {len(family.parameters)} parameters, not {len(parameters)}")
+        raise TopologyError(
+            phrase(
+                "{scheme} takes {n} parameters, not {given}",
+                scheme=family.title,
+                n=len(family.parameters),
+                given=len(parameters),
+            )
+        )
     return family.make(*(parameters or family.start))
 
 

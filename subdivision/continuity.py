@@ -12,6 +12,7 @@ import numpy as np
 from subdivision.arrays import Floats
 from subdivision.manifold import TopologyError
 from subdivision.passes import Vector
+from subdivision.words import phrase
 
 
 @dataclass(frozen=True)
@@ -46,13 +47,15 @@ def checked_vectors(vectors: Sequence[Sequence[int]]) -> tuple[Vector, ...]:
     chosen = []
     for v in vectors:
         if len(v) != 2 or any(int(x) != x for x in v):
-            raise TopologyError(f"{tuple(v)} is not a pair of integers")
+            raise TopologyError(phrase("{vector} is not a pair of integers", vector=tuple(v)))
         chosen.append((int(v[0]), int(v[1])))
     if (0, 0) in chosen:
         raise TopologyError("the vector (0,0) would average every point with itself; leave it out")
     for needed in ((1, 0), (0, 1)):
         if needed not in chosen:
-            raise TopologyError(f"the vector set needs ({needed[0]},{needed[1]}) at least once, for the quadrupling")
+            raise TopologyError(
+                phrase("the vector set needs ({a},{b}) at least once, for the quadrupling", a=needed[0], b=needed[1])
+            )
     return tuple(chosen)
 
 
@@ -80,7 +83,12 @@ def promise(vectors: Sequence[Vector]) -> str:
             "The limit jumps (alpha = 1): all vectors but one are parallel, so across one direction nothing is "
             "averaged and each row keeps its own value. This is what the rule says, not a failure."
         )
-    return f"The limit is piecewise polynomial of total degree {degree(vectors)} and C^{k} (alpha = {alpha(vectors)})."
+    return phrase(
+        "The limit is piecewise polynomial of total degree {degree} and C^{k} (alpha = {alpha}).",
+        degree=degree(vectors),
+        k=k,
+        alpha=alpha(vectors),
+    )
 
 
 def mask(vectors: Sequence[Vector]) -> Mask:

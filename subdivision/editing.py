@@ -18,6 +18,7 @@ from subdivision.rows import Grid, Polyline
 from subdivision.shapes.fans import quad_fan, triangle_fan
 from subdivision.topology import INFINITELY_SHARP, Boundary, Topology
 from subdivision.trace import Mesh
+from subdivision.words import phrase
 
 LEAST_OPEN, LEAST_CLOSED = 2, 3
 """Points that a polygon needs."""
@@ -35,7 +36,11 @@ def insert_point(polygon: Mesh, after: int, at: Sequence[float] | Floats) -> Mes
     """One point more, behind number ``after``; -1: before the first."""
     t = _polyline(polygon)
     if not -1 <= after < t.n_vertices:
-        raise TopologyError(f"there is no point {after} to follow; choose one from 0 to {t.n_vertices - 1}")
+        raise TopologyError(
+            phrase(
+                "there is no point {after} to follow; choose one from 0 to {last}", after=after, last=t.n_vertices - 1
+            )
+        )
     return Mesh(replace(t, n_vertices=t.n_vertices + 1), np.insert(polygon.points, after + 1, at, axis=0))
 
 
@@ -44,11 +49,13 @@ def remove_points(polygon: Mesh, points: Iterable[int]) -> Mesh:
     t, gone = _polyline(polygon), _known(points, polygon.topology.n_vertices, "point")
     left, least = t.n_vertices - len(gone), LEAST_CLOSED if t.closed else LEAST_OPEN
     if left < least:
-        kind, mend = ("a closed", "open it first, or keep one") if t.closed else ("an open", "keep one")
-        raise TopologyError(
-            f"without point {gone[-1]} only {left} would be left, and {kind} polygon needs {least}; {mend}",
-            vertices=gone,
+        why = (
+            "without point {gone} only {left} would be left, and a closed polygon needs {least}; open it first, or "
+            "keep one"
+            if t.closed
+            else "without point {gone} only {left} would be left, and an open polygon needs {least}; keep one"
         )
+        raise TopologyError(phrase(why, gone=gone[-1], left=left, least=least), vertices=gone)
     return Mesh(replace(t, n_vertices=left), np.delete(polygon.points, gone, axis=0))
 
 
@@ -56,7 +63,11 @@ def set_closed(polygon: Mesh, closed: bool) -> Mesh:
     """The polygon with its last point joined to its first, or parted from it."""
     t = _polyline(polygon)
     if closed and t.n_vertices < LEAST_CLOSED:
-        raise TopologyError(f"a closed polygon needs {LEAST_CLOSED} points, not {t.n_vertices}; insert one first")
+        raise TopologyError(
+            phrase(
+                "a closed polygon needs {least} points, not {n}; insert one first", least=LEAST_CLOSED, n=t.n_vertices
+            )
+        )
     return Mesh(replace(t, closed=closed), polygon.points)
 
 
@@ -86,8 +97,17 @@ def _require_across(direction: str, n: int, wrap: bool) -> None:
     least = LEAST_CLOSED if wrap else LEAST_ACROSS
     if n < least:
         wrapped = ", wrapped," if wrap else ""
-        mend = f"open it in {direction}, or keep more" if wrap else "keep more"
-        raise TopologyError(f"a net{wrapped} needs {least} points or more in direction {direction}, not {n}; {mend}")
+        mend = phrase("open it in {direction}, or keep more", direction=direction) if wrap else "keep more"
+        raise TopologyError(
+            phrase(
+                "a net{wrapped} needs {least} points or more in direction {direction}, not {n}; {mend}",
+                wrapped=wrapped,
+                least=least,
+                direction=direction,
+                n=n,
+                mend=mend,
+            )
+        )
 
 
 def _resampled(rows: Floats, n: int, wrap: bool) -> Floats:
@@ -137,8 +157,12 @@ def sharpen_edges(mesh: Mesh, edges: Iterable[int], sharpness: float) -> Mesh:
         if t.boundary[e]:
             a, b = sorted(t.ends[e].tolist())
             raise TopologyError(
-                f"the edge between vertices {a} and {b} is on the boundary, which has a rule of its own; "
-                "choose another boundary rule instead",
+                phrase(
+                    "the edge between vertices {a} and {b} is on the boundary, which has a rule of its own; "
+                    "choose another boundary rule instead",
+                    a=a,
+                    b=b,
+                ),
                 vertices=[a, b],
             )
     values = t.edge_sharpness.copy()
@@ -156,7 +180,12 @@ def sharpen_vertices(mesh: Mesh, vertices: Iterable[int], sharpness: float) -> M
 
 def _checked(sharpness: float) -> float:
     if not 0 <= sharpness <= INFINITELY_SHARP:
-        raise TopologyError(f"sharpness {sharpness:g} is not between 0 (smooth) and 10 (for ever); choose one that is")
+        raise TopologyError(
+            phrase(
+                "sharpness {sharpness:g} is not between 0 (smooth) and 10 (for ever); choose one that is",
+                sharpness=sharpness,
+            )
+        )
     return float(sharpness)
 
 
@@ -168,7 +197,7 @@ def delete_faces(mesh: Mesh, faces: Iterable[int]) -> Mesh:
     t = _surface(mesh)
     gone = _known(faces, t.n_faces, "face")
     if len(gone) == t.n_faces:
-        raise TopologyError(f"without face {gone[-1]} no face would be left; keep one", faces=gone)
+        raise TopologyError(phrase("without face {gone} no face would be left; keep one", gone=gone[-1]), faces=gone)
     _require_no_new_bow_ties(t, gone)
     stays = np.isin(np.arange(t.n_faces), gone, invert=True)
     return _rebuilt(mesh, list(compress(t.loops(), stays)))
@@ -181,7 +210,10 @@ def fill_hole(mesh: Mesh, edge: int) -> Mesh:
     if not t.boundary[e]:
         a, b = sorted(t.ends[e].tolist())
         raise TopologyError(
-            f"the edge between vertices {a} and {b} has faces on both sides; choose one along the hole", vertices=[a, b]
+            phrase(
+                "the edge between vertices {a} and {b} has faces on both sides; choose one along the hole", a=a, b=b
+            ),
+            vertices=[a, b],
         )
     return _rebuilt(mesh, [*t.loops(), boundary_loop(t, e)])
 
@@ -205,24 +237,39 @@ def flip_edge(mesh: Mesh, edge: int) -> Mesh:
     a, b = sorted(t.ends[e].tolist())
     if len(sides) < 2:
         raise TopologyError(
-            f"the edge between vertices {a} and {b} has one face only, so it has no other diagonal; "
-            "choose one between two triangles",
+            phrase(
+                "the edge between vertices {a} and {b} has one face only, so it has no other diagonal; "
+                "choose one between two triangles",
+                a=a,
+                b=b,
+            ),
             vertices=[a, b],
         )
     one, other = (int(f) for f in t.face[sides])
     for f in (one, other):
         if t.face_sizes[f] != 3:
             raise TopologyError(
-                f"face {f} at the edge between vertices {a} and {b} has {t.face_sizes[f]} corners; "
-                "triangulate the mesh first",
+                phrase(
+                    "face {f} at the edge between vertices {a} and {b} has {n} corners; triangulate the mesh first",
+                    f=f,
+                    a=a,
+                    b=b,
+                    n=t.face_sizes[f],
+                ),
                 faces=[f],
             )
     a, b = int(t.origin[sides[0]]), int(t.origin[t.next[sides[0]]])
     c, d = (int(t.origin[t.prev[h]]) for h in sides)
     if _is_edge(t, c, d):
         raise TopologyError(
-            f"vertices {c} and {d} have an edge already, so the one between {a} and {b} cannot be flipped; "
-            "choose another edge",
+            phrase(
+                "vertices {c} and {d} have an edge already, so the one between {a} and {b} cannot be "
+                "flipped; choose another edge",
+                c=c,
+                d=d,
+                a=a,
+                b=b,
+            ),
             vertices=[c, d],
         )
     loops = t.loops()
@@ -257,7 +304,10 @@ def _ears(face: int, loop: list[int], places: Floats, taken: set[frozenset[int]]
         free = [k for k in range(n) if frozenset((loop[k - 1], loop[(k + 1) % n])) not in taken]
         if not free:
             raise TopologyError(
-                f"face {face} cannot be cut: all its diagonals are edges of other faces; delete one of them first",
+                phrase(
+                    "face {face} cannot be cut: all its diagonals are edges of other faces; delete one of them first",
+                    face=face,
+                ),
                 faces=[face],
             )
         length = {k: round(float(np.linalg.norm(places[loop[k - 1]] - places[loop[(k + 1) % n]])), 9) for k in free}
@@ -298,11 +348,17 @@ def _require_no_new_bow_ties(t: Topology, gone: list[int]) -> None:
     if (torn := np.flatnonzero(starts > 1)).size:
         v = int(torn[0])
         there = sorted({int(f) for f in t.face[half & (t.origin == v)]})
-        listed = " and ".join(map(str, gone)) if len(gone) <= 2 else f"these {len(gone)} faces"
-        named = f"face{'s' * (len(gone) > 1)} {listed}" if len(gone) <= 2 else listed
+        named = phrase("these {n} faces", n=len(gone))
+        if len(gone) <= 2:
+            named = phrase("face {a}" if len(gone) == 1 else "faces {a} and {b}", a=gone[0], b=gone[-1])
         raise TopologyError(
-            f"without {named} two fans of faces would touch at vertex {v} without sharing an edge; "
-            f"delete one of the fans (of faces {', '.join(map(str, there))}) too, or choose other faces",
+            phrase(
+                "without {named} two fans of faces would touch at vertex {v} without sharing an edge; "
+                "delete one of the fans (of faces {faces}) too, or choose other faces",
+                named=named,
+                v=v,
+                faces=", ".join(map(str, there)),
+            ),
             faces=there,
             vertices=[v],
         )
@@ -316,10 +372,12 @@ def _known(numbers: Iterable[int], n: int, kind: str) -> list[int]:
     """The numbers in order, each once."""
     found = sorted({int(k) for k in numbers})
     if not found:
-        raise TopologyError(f"no {kind} is chosen; choose one")
+        raise TopologyError(phrase("no {kind} is chosen; choose one", kind=kind))
     for k in found:
         if not 0 <= k < n:
-            raise TopologyError(f"there is no {kind} {k}; choose one from 0 to {n - 1}")
+            raise TopologyError(
+                phrase("there is no {kind} {k}; choose one from 0 to {last}", kind=kind, k=k, last=n - 1)
+            )
     return found
 
 

@@ -26,6 +26,7 @@ from subdivision.smoothness import (
     triangle_pulls,
 )
 from subdivision.spectrum import Ring, ring
+from subdivision.words import phrase
 
 EQUAL = 1e-12
 """Eigenvalues so close are the same."""
@@ -97,11 +98,24 @@ class Analysis:
         rival, ring = abs(self.rival.value), self.subdominant
         if not rival < ring - EQUAL:
             return Condition(
-                "C¹", False, "a tip", f"mode {self.rival.mode} shrinks by {rival:.4f}, the ring by {ring:.4f}"
+                "C¹",
+                False,
+                "a tip",
+                phrase(
+                    "mode {mode} shrinks by {rival:.4f}, the ring by {ring:.4f}",
+                    mode=self.rival.mode,
+                    rival=rival,
+                    ring=ring,
+                ),
             )
         if not self.chart.is_one_to_one:
             return Condition("C¹", False, "a fold", "the characteristic map is not one to one")
-        return Condition("C¹", True, "a tangent plane", f"λ is double, all else shrinks faster: {rival:.4f} or less")
+        return Condition(
+            "C¹",
+            True,
+            "a tangent plane",
+            phrase("λ is double, all else shrinks faster: {rival:.4f} or less", rival=rival),
+        )
 
     def _curvature(self, name: str, value: float, is_smooth: bool) -> Condition:
         square = self.subdominant**2
@@ -109,10 +123,10 @@ class Analysis:
         if not is_smooth:
             return Condition(name, False, "no curvature", "there is no tangent plane")
         if abs(abs(value) - square) <= EQUAL:
-            return Condition(name, True, "bounded", f"{told}: the curvature is bounded and not zero")
+            return Condition(name, True, "bounded", phrase("{told}: the curvature is bounded and not zero", told=told))
         if abs(value) > square:
-            return Condition(name, False, "pinched", f"{told}: the curvature grows without bound")
-        return Condition(name, True, "flat spot", f"{told}: the curvature dies out")
+            return Condition(name, False, "pinched", phrase("{told}: the curvature grows without bound", told=told))
+        return Condition(name, True, "flat spot", phrase("{told}: the curvature dies out", told=told))
 
 
 @dataclass(frozen=True)
@@ -156,7 +170,7 @@ class PullRule:
         """
         whole = self.all_the_way.reach
         if scheme not in self.published.values() or scheme.reach is None or whole is None:
-            raise TopologyError(f"{scheme.title} is not told by how far it pulls")
+            raise TopologyError(phrase("{scheme} is not told by how far it pulls", scheme=scheme.title))
         return scheme.reach(n) * (1 / Fraction(float(whole(n))))
 
     def specials(self, n: int) -> tuple[Special, ...]:

@@ -20,6 +20,7 @@ from subdivision.scheme import Scheme
 from subdivision.stage import Stage, Stencil, Step
 from subdivision.topology import INFINITELY_SHARP, Topology
 from subdivision.trace import Mesh, Trace
+from subdivision.words import phrase
 
 MOST_FACES = 2_000_000
 """Refining stops here: beyond, semi-sharp creases would cost gigabytes."""
@@ -36,7 +37,7 @@ def limit_stage(scheme: Scheme, topology: Connectivity) -> Stage:
     """
     scheme.require(topology)
     if scheme.limit is None:
-        raise TopologyError(f"{scheme.title} tells no limit positions")
+        raise TopologyError(phrase("{scheme} tells no limit positions", scheme=scheme.title))
     if not isinstance(topology, Topology):
         return scheme.limit(topology)
     settled, before = _settled(scheme, topology)
@@ -83,7 +84,9 @@ def limit_stencil(scheme: Scheme, topology: Connectivity, vertex: int) -> Stenci
     rows = np.flatnonzero(stage.carries == vertex)
     if len(rows) == 0:
         why = "not all points around it exist"
-        raise TopologyError(f"point {vertex} has no limit of its own: {why}", vertices=[vertex])
+        raise TopologyError(
+            phrase("point {vertex} has no limit of its own: {why}", vertex=vertex, why=why), vertices=[vertex]
+        )
     return replace(stage.stencil(int(rows[0])), point=vertex)
 
 
@@ -100,7 +103,7 @@ def tangents(scheme: Scheme, topology: Connectivity) -> tuple[Operator, Operator
     """
     scheme.require(topology)
     if scheme.tangents is None or not isinstance(topology, Topology):
-        raise TopologyError(f"{scheme.title} tells no tangents")
+        raise TopologyError(phrase("{scheme} tells no tangents", scheme=scheme.title))
     settled, before = _settled(scheme, topology)
     first, second = scheme.tangents(settled)
     if before is None:
@@ -141,8 +144,14 @@ def _settled(scheme: Scheme, topology: Topology) -> tuple[Topology, Operator | N
     faces = scheme.faces_after(topology, levels)
     if faces > MOST_FACES:
         raise TopologyError(
-            f"the largest finite sharpness takes {levels} levels to wear off, which makes {faces:,} faces, "
-            f"more than {MOST_FACES:,}; lower the sharpness or make it infinite ({INFINITELY_SHARP:g})"
+            phrase(
+                "the largest finite sharpness takes {levels} levels to wear off, which makes {faces:,} "
+                "faces, more than {most_faces:,}; lower the sharpness or make it infinite ({infinite:g})",
+                levels=levels,
+                faces=faces,
+                most_faces=MOST_FACES,
+                infinite=INFINITELY_SHARP,
+            )
         )
     steps: list[Step] = []
     for _ in range(levels):

@@ -18,6 +18,7 @@ from subdivision.operators import Operator, Pick
 from subdivision.passes import Vector
 from subdivision.rows import Connectivity, Grid, Polyline
 from subdivision.stage import Role, Stage
+from subdivision.words import phrase
 
 
 def curve_limit(t: Connectivity, degree: int) -> Stage:
@@ -28,7 +29,9 @@ def curve_limit(t: Connectivity, degree: int) -> Stage:
     reach = max(weights)
     kept = np.arange(t.n_vertices) if t.closed else np.arange(reach, t.n_vertices - reach)
     if len(kept) == 0:
-        raise TopologyError(f"{t.n_vertices} points are too few: a limit needs {reach} of them on either side")
+        raise TopologyError(
+            phrase("{n} points are too few: a limit needs {reach} of them on either side", n=t.n_vertices, reach=reach)
+        )
     parts = [w * Pick((kept + k) % t.n_vertices, t.n_vertices) for k, w in weights.items()]
     return _told(reduce(Operator.__add__, parts), Polyline(len(kept), t.closed), kept)
 
@@ -42,8 +45,12 @@ def net_limit(t: Connectivity, weights: Mapping[Vector, Fraction]) -> Stage:
     rows = np.arange(t.n_s) if t.wrap_s else np.arange(low_s, t.n_s - reach_s)
     columns = np.arange(t.n_t) if t.wrap_t else np.arange(low_t, t.n_t - reach_t)
     if min(len(rows), len(columns)) == 0:
-        needed = f"{low_s + reach_s + 1} by {low_t + reach_t + 1}"
-        raise TopologyError(f"a net of {t.n_s} by {t.n_t} points is too small: limits need {needed}")
+        needed = phrase("{n_s} by {n_t}", n_s=low_s + reach_s + 1, n_t=low_t + reach_t + 1)
+        raise TopologyError(
+            phrase(
+                "a net of {n_s} by {n_t} points is too small: limits need {needed}", n_s=t.n_s, n_t=t.n_t, needed=needed
+            )
+        )
     parts = [
         w * Pick(t.numbers[np.ix_((rows + i) % t.n_s, (columns + j) % t.n_t)].ravel(), t.n_vertices)
         for (i, j), w in weights.items()

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from subdivision.arrays import Indices
+from subdivision.words import phrase
 
 
 class TopologyError(ValueError):
@@ -25,17 +26,23 @@ def require_faces(sizes: Indices, origin: Indices, face: Indices, n_vertices: in
         raise TopologyError("there are no faces; a mesh needs at least one")
     if (small := np.flatnonzero(sizes < 3)).size:
         f = int(small[0])
-        raise TopologyError(f"face {f} has {sizes[f]} corners; a face needs three or more", faces=[f])
+        raise TopologyError(phrase("face {f} has {n} corners; a face needs three or more", f=f, n=sizes[f]), faces=[f])
     if (bad := np.flatnonzero((origin < 0) | (origin >= n_vertices))).size:
         f = int(face[bad[0]])
         raise TopologyError(
-            f"face {f} names vertex {origin[bad[0]]}, but there are only {n_vertices} vertices (0 to {n_vertices - 1})",
+            phrase(
+                "face {f} names vertex {vertex}, but there are only {n_vertices} vertices (0 to {last})",
+                f=f,
+                vertex=origin[bad[0]],
+                n_vertices=n_vertices,
+                last=n_vertices - 1,
+            ),
             faces=[f],
         )
     visits = np.sort(face * n_vertices + origin)
     if (twice := np.flatnonzero(np.diff(visits) == 0)).size:
         f, v = divmod(int(visits[twice[0]]), n_vertices)
-        raise TopologyError(f"face {f} visits vertex {v} twice; remove the repeated corner", faces=[f])
+        raise TopologyError(phrase("face {f} visits vertex {v} twice; remove the repeated corner", f=f, v=v), faces=[f])
 
 
 def paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Indices, Indices]:
@@ -53,8 +60,14 @@ def paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Indi
     if (same := np.flatnonzero(a[one] == a[other])).size:
         g, h = int(one[same[0]]), int(other[same[0]])
         raise TopologyError(
-            f"faces {face[g]} and {face[h]} both run from vertex {a[g]} to vertex {b[g]}; "
-            "reverse the corner order of one of them",
+            phrase(
+                "faces {face} and {other} both run from vertex {a} to vertex {b}; reverse the corner "
+                "order of one of them",
+                face=face[g],
+                other=face[h],
+                a=a[g],
+                b=b[g],
+            ),
             faces=[int(face[g]), int(face[h])],
             vertices=[int(a[g]), int(b[g])],
         )
@@ -70,8 +83,14 @@ def _require_two_faces_an_edge(
         around = [int(face[h]) for h in order[start[e] : start[e] + count[e]]]
         h = order[start[e]]
         raise TopologyError(
-            f"the edge between vertices {a[h]} and {b[h]} has {count[e]} faces ({', '.join(map(str, around))}); "
-            "a surface has at most two there, so remove the others or split the edge",
+            phrase(
+                "the edge between vertices {a} and {b} has {n} faces ({faces}); a surface has at most "
+                "two there, so remove the others or split the edge",
+                a=a[h],
+                b=b[h],
+                n=count[e],
+                faces=", ".join(map(str, around)),
+            ),
             faces=around,
             vertices=[int(a[h]), int(b[h])],
         )

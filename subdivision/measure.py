@@ -14,6 +14,7 @@ from subdivision.arrays import Floats, Indices
 from subdivision.manifold import TopologyError
 from subdivision.rows import Connectivity
 from subdivision.trace import Mesh
+from subdivision.words import phrase
 
 
 class Counts(NamedTuple):
@@ -64,7 +65,11 @@ def largest_distance(a: Mesh, b: Mesh) -> float:
     """
     if a.points.shape != b.points.shape:
         raise ValueError(
-            f"{len(a.points)} points have no partners among {len(b.points)}; compare meshes of the same connectivity"
+            phrase(
+                "{n} points have no partners among {others}; compare meshes of the same connectivity",
+                n=len(a.points),
+                others=len(b.points),
+            )
         )
     return float(np.linalg.norm(a.points - b.points, axis=1).max(initial=0.0))
 
@@ -87,7 +92,7 @@ def _sides(mesh: Mesh, vertex: int) -> tuple[Floats, Floats]:
     t, p = mesh.topology, mesh.points
     here = np.flatnonzero(t.origin == vertex)
     if not len(here):
-        raise TopologyError(f"there is no face at vertex {vertex} to measure", vertices=[vertex])
+        raise TopologyError(phrase("there is no face at vertex {vertex} to measure", vertex=vertex), vertices=[vertex])
     last = np.cumsum(t.face_sizes)
     face = np.searchsorted(last, here, side="right")
     size = t.face_sizes[face]

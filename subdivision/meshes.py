@@ -5,6 +5,7 @@ import numpy as np
 from subdivision.manifold import TopologyError
 from subdivision.rows import Connectivity
 from subdivision.topology import Topology
+from subdivision.words import phrase
 
 
 def refuses_non_meshes(t: Connectivity) -> str:
@@ -15,7 +16,7 @@ def refuses_non_meshes(t: Connectivity) -> str:
 def as_mesh(t: Connectivity) -> Topology:
     """``t`` itself, if it is a polygon mesh."""
     if not isinstance(t, Topology):
-        raise TopologyError(f"this scheme subdivides meshes only: {refuses_non_meshes(t)}")
+        raise TopologyError(phrase("this scheme subdivides meshes only: {reason}", reason=refuses_non_meshes(t)))
     return t
 
 
@@ -34,9 +35,15 @@ def refuses_sharp(t: Topology) -> str:
     creases = np.flatnonzero((t.edge_sharpness > 0) & ~t.boundary)
     if creases.size:
         a, b = t.ends[creases[0]]
-        return f"the edge between vertices {a} and {b} is sharp, and it knows no creases; make the edge smooth"
+        return phrase(
+            "the edge between vertices {a} and {b} is sharp, and it knows no creases; make the edge smooth", a=a, b=b
+        )
     pins = np.flatnonzero((t.vertex_sharpness > 0) & ~t.on_boundary)
-    return f"vertex {pins[0]} is sharp, and it knows no corners; make the vertex smooth" if pins.size else ""
+    return (
+        phrase("vertex {vertex} is sharp, and it knows no corners; make the vertex smooth", vertex=pins[0])
+        if pins.size
+        else ""
+    )
 
 
 def refuses_literal_boundaries(t: Topology) -> str:
@@ -52,7 +59,9 @@ def refuses_open(t: Topology) -> str:
     if rim.size == 0:
         return ""
     a, b = t.ends[rim[0]]
-    return f"it ends at the edge between vertices {a} and {b}, and no boundary rule is known; close the mesh"
+    return phrase(
+        "it ends at the edge between vertices {a} and {b}, and no boundary rule is known; close the mesh", a=a, b=b
+    )
 
 
 def refuses_curves_at_the_boundary(t: Topology) -> str:
@@ -68,7 +77,13 @@ def refuses_curves_at_the_boundary(t: Topology) -> str:
 def only_quads(t: Connectivity, title: str) -> Topology:
     """``t`` itself, if all its faces are quads."""
     if not isinstance(t, Topology) or not t.is_quadrilateral:
-        raise TopologyError(f"{title} is told by centroid averaging on quads only: {refuses_non_quads(t)}")
+        raise TopologyError(
+            phrase(
+                "{title} is told by centroid averaging on quads only: {reason}",
+                title=title,
+                reason=refuses_non_quads(t),
+            )
+        )
     return t
 
 
@@ -78,4 +93,10 @@ def _refuses_other_faces(t: Connectivity, size: int, kind: str, mend: str) -> st
     other = np.flatnonzero(t.face_sizes != size)
     if other.size == 0:
         return ""
-    return f"face {other[0]} has {t.face_sizes[other[0]]} corners, and every face must be a {kind}; {mend}"
+    return phrase(
+        "face {face} has {n} corners, and every face must be a {kind}; {mend}",
+        face=other[0],
+        n=t.face_sizes[other[0]],
+        kind=kind,
+        mend=mend,
+    )

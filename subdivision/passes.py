@@ -17,6 +17,7 @@ from subdivision.manifold import TopologyError
 from subdivision.operators import MeanOf, Operator, Pick, identity, stack
 from subdivision.rows import Connectivity, Grid, Polyline
 from subdivision.stage import Role, Stage, Step
+from subdivision.words import phrase
 
 Vector: TypeAlias = tuple[int, int]
 Pass: TypeAlias = Callable[[Connectivity], Stage]
@@ -57,7 +58,9 @@ def split(direction: int) -> Pass:
             return _copies("split", np.repeat(np.arange(t.n_vertices), 2), Polyline(2 * t.n_vertices, t.closed), t)
         grid = as_grid(t)
         twice = np.repeat(grid.numbers, 2, axis=direction)
-        return _copies(f"split {'st'[direction]}", twice.ravel(), _resized(grid, twice.shape), grid)
+        return _copies(
+            phrase("split {direction}", direction="st"[direction]), twice.ravel(), _resized(grid, twice.shape), grid
+        )
 
     return stage
 
@@ -80,7 +83,9 @@ def average(v: Vector, name: str | None = None) -> Pass:
         grid = as_grid(t)
         here, there = _pairs(grid, v)
         ends = np.stack([here.ravel(), there.ravel()], axis=1)
-        return _means(name or f"average {spelled(v)}", ends, _resized(grid, here.shape), grid, ends[:, 0])
+        return _means(
+            name or phrase("average {vector}", vector=spelled(v)), ends, _resized(grid, here.shape), grid, ends[:, 0]
+        )
 
     return stage
 
@@ -163,14 +168,23 @@ def as_polygon(t: Connectivity) -> Polyline:
 def room(t: Connectivity, lost: tuple[int, int]) -> str:
     """Why an open control object is too small for passes that shorten it by ``lost``; empty where it is not."""
     if isinstance(t, Polyline):
-        sizes = [("points", t.n_vertices, lost[0], t.closed)]
+        sizes = [(phrase("points"), t.n_vertices, lost[0], t.closed)]
     elif isinstance(t, Grid):
-        sizes = [("rows in s", t.n_s, lost[0], t.wrap_s), ("columns in t", t.n_t, lost[1], t.wrap_t)]
+        sizes = [
+            (phrase("rows in s"), t.n_s, lost[0], t.wrap_s),
+            (phrase("columns in t"), t.n_t, lost[1], t.wrap_t),
+        ]
     else:
         return "it is a polygon mesh, not a polygon or a rectangular net"
     for what, n, s, wrapped in sizes:
         if not wrapped and n <= s:
-            return f"each step shortens it by {s}, so {n} {what} would never grow; it needs at least {s + 1} {what}"
+            return phrase(
+                "each step shortens it by {s}, so {n} {what} would never grow; it needs at least {least} {what}",
+                s=s,
+                n=n,
+                what=what,
+                least=s + 1,
+            )
     return ""
 
 
@@ -185,7 +199,9 @@ def _pairs(grid: Grid, v: Vector) -> tuple[Indices, Indices]:
 def _reach(n: int, step: int, wrap: bool) -> tuple[Indices, Indices]:
     here = np.arange(n) if wrap else np.arange(max(0, -step), min(n, n - step))
     if len(here) == 0:
-        raise TopologyError(f"no two of the {n} rows are {abs(step)} apart; the net is too small for this pass")
+        raise TopologyError(
+            phrase("no two of the {n} rows are {apart} apart; the net is too small for this pass", n=n, apart=abs(step))
+        )
     return here, (here + step) % n
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from subdivision.arrays import Indices, Mask, frozen
 from subdivision.manifold import TopologyError
 from subdivision.topology import Topology
+from subdivision.words import phrase
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,9 @@ class Polyline:
         least = 3 if self.closed else 1
         if self.n_vertices < least:
             kind = "a closed polygon" if self.closed else "a polygon"
-            raise TopologyError(f"{kind} needs at least {least} points, not {self.n_vertices}")
+            raise TopologyError(
+                phrase("{kind} needs at least {least} points, not {n}", kind=kind, least=least, n=self.n_vertices)
+            )
 
     @cached_property
     def ends(self) -> Indices:
@@ -84,7 +87,15 @@ class Grid:
             least = 3 if wrap else 1
             if n < least:
                 wrapped = ", wrapped," if wrap else ""
-                raise TopologyError(f"a net{wrapped} needs at least {least} points in direction {name}, not {n}")
+                raise TopologyError(
+                    phrase(
+                        "a net{wrapped} needs at least {least} points in direction {name}, not {n}",
+                        wrapped=wrapped,
+                        least=least,
+                        name=name,
+                        n=n,
+                    )
+                )
 
     @property
     def n_vertices(self) -> int:

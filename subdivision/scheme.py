@@ -10,6 +10,7 @@ from subdivision.refine import Refinement
 from subdivision.rows import Connectivity
 from subdivision.stage import Stage, Step
 from subdivision.topology import Topology
+from subdivision.words import phrase
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Scheme:
     def require(self, topology: Connectivity) -> None:
         """Raise the ``TopologyError`` that says why the scheme refuses a control object, if it does."""
         if reason := self.refuses(topology):
-            raise TopologyError(f"{self.title} cannot subdivide this: {reason}")
+            raise TopologyError(phrase("{scheme} cannot subdivide this: {reason}", scheme=self.title, reason=reason))
 
     def faces_after(self, topology: Topology, levels: int) -> int:
         """How many faces ``levels`` steps make of a mesh, told without making them.
@@ -86,5 +87,12 @@ class Scheme:
         """
         self.require(topology)
         if telling is not None and telling not in self.tellings:
-            raise TopologyError(f"{self.title} has no telling '{telling}'; it has {', '.join(self.tellings)}")
+            raise TopologyError(
+                phrase(
+                    "{scheme} has no telling '{telling}'; it has {tellings}",
+                    scheme=self.title,
+                    telling=telling,
+                    tellings=", ".join(self.tellings),
+                )
+            )
         return self.tellings[telling or next(iter(self.tellings))](topology)

@@ -20,6 +20,7 @@ from subdivision.refine import QUADS, TRIANGLES
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
 from subdivision.topology import Topology
+from subdivision.words import phrase
 
 Point: TypeAlias = Literal["vertex", "edge", "face"]
 
@@ -121,12 +122,27 @@ class Ring:
         """What becomes of the curvature of a bowl at the vertex, in a sentence."""
         square = self.subdominant**2
         if not self.is_smooth:
-            return f"a tip remains: it shrinks by {self.cup:.5f}, no faster than its ring, {self.subdominant:.5f}"
+            return phrase(
+                "a tip remains: it shrinks by {cup:.5f}, no faster than its ring, {ring:.5f}",
+                cup=self.cup,
+                ring=self.subdominant,
+            )
         if abs(self.cup - square) <= 1e-12:
-            return f"bowls keep a bounded curvature, not zero: they shrink by {square:.5f}, as the ring squared"
+            return phrase(
+                "bowls keep a bounded curvature, not zero: they shrink by {square:.5f}, as the ring squared",
+                square=square,
+            )
         if self.cup > square:
-            return f"bowls are pinched: they shrink by {self.cup:.5f}, slower than the ring squared, {square:.5f}"
-        return f"bowls flatten: they shrink by {self.cup:.5f}, faster than the ring squared, {square:.5f}"
+            return phrase(
+                "bowls are pinched: they shrink by {cup:.5f}, slower than the ring squared, {square:.5f}",
+                cup=self.cup,
+                square=square,
+            )
+        return phrase(
+            "bowls flatten: they shrink by {cup:.5f}, faster than the ring squared, {square:.5f}",
+            cup=self.cup,
+            square=square,
+        )
 
     def characteristic_map(self) -> Floats:
         """(m, 2) float: the ring as the scheme sees it, level after level: V at 0, E1 at (1, 0)."""
@@ -161,9 +177,11 @@ def stencil_by_valence(scheme: Scheme, valence: int, point: Point) -> NamedStenc
     step, names, successors = step_on_fan(scheme, valence)
     name = {"vertex": "V", "edge": "E1", "face": "F1"}.get(point)
     if name is None:
-        raise TopologyError(f"there is no '{point}' point; choose vertex, edge or face")
+        raise TopologyError(phrase("there is no '{point}' point; choose vertex, edge or face", point=point))
     if name not in successors:
-        raise TopologyError(f"{scheme.title} makes no face points: triangles are split at their edges only")
+        raise TopologyError(
+            phrase("{scheme} makes no face points: triangles are split at their edges only", scheme=scheme.title)
+        )
     return _named(step, names, point, successors[name])
 
 
@@ -182,16 +200,27 @@ def fan(n: int, corners: int) -> Topology:
 def step_on_fan(scheme: Scheme, n: int) -> tuple[Step, tuple[str, ...], dict[str, int]]:
     """A step on a fan; names of the old points; and where their successors are among the new ones."""
     if n < 3:
-        raise TopologyError(f"{n} faces do not close round a vertex; choose a valence of 3 or more")
+        raise TopologyError(phrase("{n} faces do not close round a vertex; choose a valence of 3 or more", n=n))
     if scheme.refinement not in (None, QUADS, TRIANGLES):
-        raise TopologyError(f"{scheme.title} makes no point for every vertex and edge: no valence tells a stencil")
+        raise TopologyError(
+            phrase("{scheme} makes no point for every vertex and edge: no valence tells a stencil", scheme=scheme.title)
+        )
     if scheme.rings > 1:
-        raise TopologyError(f"{scheme.title} reads {scheme.rings} rings of faces: no valence alone tells a stencil")
+        raise TopologyError(
+            phrase(
+                "{scheme} reads {rings} rings of faces: no valence alone tells a stencil",
+                scheme=scheme.title,
+                rings=scheme.rings,
+            )
+        )
     fans = [fan(n, 4), fan(n, 3)]
     t = next((t for t in fans if scheme.accepts(t)), None)
     if t is None:
         raise TopologyError(
-            f"{scheme.title} has no vertices of any valence: it subdivides polygons or nets, not meshes"
+            phrase(
+                "{scheme} has no vertices of any valence: it subdivides polygons or nets, not meshes",
+                scheme=scheme.title,
+            )
         )
     quads = t.is_quadrilateral
     step = scheme.step(t)

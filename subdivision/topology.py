@@ -18,6 +18,7 @@ import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, frozen, taken
 from subdivision.manifold import TopologyError, paired, require_faces
+from subdivision.words import phrase
 
 INFINITELY_SHARP = 10.0
 """Sharpness from here on never wears off, as in OpenSubdiv."""
@@ -243,8 +244,11 @@ def _require_single_fans(t: Topology) -> None:
     if bad.any() or apart.any():
         v = int(np.flatnonzero(bad)[0]) if bad.any() else int(t.origin[np.flatnonzero(apart)[0]])
         raise TopologyError(
-            f"at vertex {v} two fans of faces touch without sharing an edge (a bow tie); "
-            "give each fan a vertex of its own",
+            phrase(
+                "at vertex {v} two fans of faces touch without sharing an edge (a bow tie); give each "
+                "fan a vertex of its own",
+                v=v,
+            ),
             faces=sorted({int(f) for f in t.face[t.origin == v]}),
             vertices=[v],
         )
@@ -269,7 +273,9 @@ def _crease_sharpness(ends: Indices, creases: Mapping[tuple[int, int], float]) -
     found = np.minimum(np.searchsorted(keys, places), len(keys) - 1)
     if (missing := np.flatnonzero((keys[found] != places) | (wanted[:, 0] < 0))).size:
         pair = list(creases)[missing[0]]
-        raise TopologyError(f"there is no edge between vertices {pair[0]} and {pair[1]} to crease", vertices=pair)
+        raise TopologyError(
+            phrase("there is no edge between vertices {a} and {b} to crease", a=pair[0], b=pair[1]), vertices=pair
+        )
     sharpness[found] = [_checked(value) for value in creases.values()]
     return sharpness
 
@@ -278,12 +284,16 @@ def _corner_sharpness(n_vertices: int, corners: Mapping[int, float]) -> Floats:
     sharpness = np.zeros(n_vertices)
     for v, value in corners.items():
         if not 0 <= v < n_vertices:
-            raise TopologyError(f"there is no vertex {v} to sharpen", vertices=[v])
+            raise TopologyError(phrase("there is no vertex {v} to sharpen", v=v), vertices=[v])
         sharpness[v] = _checked(value)
     return sharpness
 
 
 def _checked(sharpness: float) -> float:
     if not sharpness >= 0:
-        raise TopologyError(f"sharpness {sharpness} is not a number from 0 (smooth) to 10 (infinitely sharp)")
+        raise TopologyError(
+            phrase(
+                "sharpness {sharpness} is not a number from 0 (smooth) to 10 (infinitely sharp)", sharpness=sharpness
+            )
+        )
     return min(float(sharpness), INFINITELY_SHARP)

@@ -13,6 +13,7 @@ from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step
 from subdivision.topology import Topology
+from subdivision.words import phrase
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +27,13 @@ class Mesh:
         kept = isinstance(self.points, np.ndarray) and not self.points.flags.writeable
         points = np.array(self.points, dtype=float, copy=None if kept else True)
         if points.shape != (self.topology.n_vertices, 3):
-            raise ValueError(f"{self.topology.n_vertices} vertices need points of shape (n, 3), not {points.shape}")
+            raise ValueError(
+                phrase(
+                    "{n} vertices need points of shape (n, 3), not {shape}",
+                    n=self.topology.n_vertices,
+                    shape=points.shape,
+                )
+            )
         object.__setattr__(self, "points", frozen(points))
 
     @property

@@ -16,6 +16,7 @@ from subdivision.files.content import Content, mesh_of
 from subdivision.files.faults import Fault, FileError, fault_of_system, printable
 from subdivision.files.saving import save
 from subdivision.trace import Mesh
+from subdivision.words import phrase
 
 __all__ = ["READABLE", "WRITABLE", "FileError", "read", "write"]
 
@@ -85,7 +86,10 @@ def _chosen(formats: Mapping[str, _Format], path: Path, done: str) -> _Format:
     _require_no_folder(path)
     known = ", ".join(formats)
     raise Fault(
-        f"files ending in '{suffix}' are not {done}" if suffix else "the name has no suffix", f"use one of {known}"
+        phrase("files ending in '{suffix}' are not {done}", suffix=suffix, done=done)
+        if suffix
+        else "the name has no suffix",
+        phrase("use one of {known}", known=known),
     )
 
 
@@ -110,7 +114,10 @@ def _require_file(path: Path) -> None:
 def _require_writable(path: Path) -> None:
     _require_file(path)
     if not path.absolute().parent.is_dir():
-        raise Fault(f"there is no folder {printable(str(path.absolute().parent))}", "create it or choose another")
+        raise Fault(
+            phrase("there is no folder {folder}", folder=printable(str(path.absolute().parent))),
+            "create it or choose another",
+        )
     if path.exists() and not os.access(path, os.W_OK):
         raise Fault("the file there is protected from writing", "change its permissions or choose another name")
 
@@ -122,4 +129,4 @@ def _require_mesh(mesh: Mesh) -> None:
         raise Fault("no face is left to save: all touch the boundary, and this rule hides those", "choose another one")
     if not np.isfinite(mesh.points).all():
         v = int(np.flatnonzero(~np.isfinite(mesh.points).all(axis=1))[0])
-        raise Fault(f"point {v} is not finite", "move it to a finite position first")
+        raise Fault(phrase("point {v} is not finite", v=v), "move it to a finite position first")

@@ -11,6 +11,7 @@ from subdivision.files.faults import Fault
 from subdivision.manifold import TopologyError
 from subdivision.topology import Topology
 from subdivision.trace import Mesh
+from subdivision.words import phrase, plural
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +78,9 @@ def require_known(content: Content) -> Content:
     n = len(content.points)
     if (bad := np.flatnonzero((content.corners < 0) | (content.corners >= n))).size:
         face = int(np.searchsorted(np.cumsum(content.sizes), bad[0], side="right"))
-        known = f"the vertices are numbered from 0 to {n - 1}" if n else "there are no vertices"
+        known = phrase("the vertices are numbered from 0 to {last}", last=n - 1) if n else "there are no vertices"
         raise Fault(
-            f"this face names vertex {content.corners[bad[0]]}, but {known}",
+            phrase("this face names vertex {vertex}, but {known}", vertex=content.corners[bad[0]], known=known),
             "correct the number or add the vertex",
             content.place(face),
         )
@@ -88,8 +89,8 @@ def require_known(content: Content) -> Content:
 
 def _require_faces(content: Content, n: int) -> None:
     if len(content.sizes) == 0:
-        held = f"{_counted(n, 'vertex', 'vertices')} but no faces" if n else "neither vertices nor faces"
-        raise Fault(f"it has {held}", "export a polygon mesh with its faces")
+        held = plural("it has {n} vertex but no faces", "it has {n} vertices but no faces", n, n=n)
+        raise Fault(held if n else "it has neither vertices nor faces", "export a polygon mesh with its faces")
     if (small := np.flatnonzero(content.sizes < 3)).size:
         f = int(small[0])
         raise too_few_corners(int(content.sizes[f]), content.place(f))
@@ -97,7 +98,8 @@ def _require_faces(content: Content, n: int) -> None:
 
 def too_few_corners(n: int, place: str) -> Fault:
     """The fault of a face that is none."""
-    return Fault(f"this face has {_counted(n, 'corner', 'corners')}", "give it three or more, or remove it", place)
+    what = plural("this face has {n} corner", "this face has {n} corners", n, n=n)
+    return Fault(what, "give it three or more, or remove it", place)
 
 
 def _in_the_files_words(error: TopologyError, content: Content) -> Fault:
@@ -120,21 +122,29 @@ def _in_the_files_words(error: TopologyError, content: Content) -> Fault:
 def _no_such_edge(content: Content, ends: tuple[int, ...]) -> Fault:
     return Fault.at_line(
         content.tag_lines[min(ends), max(ends)],
-        f"no face has an edge between {' and '.join(map(str, ends))} to crease",
+        phrase("no face has an edge between {ends} to crease", ends=" and ".join(map(str, ends))),
         "name the two ends of an edge, counted from 0 in tags",
     )
 
 
 def _repeated_corner(content: Content, face: int) -> Fault:
     twice = Counter(content.loop(face)).most_common(1)[0][0]
-    return Fault(f"this face visits {content.vertex(twice)} twice", "remove the repeated corner", content.place(face))
+    return Fault(
+        phrase("this face visits {vertex} twice", vertex=content.vertex(twice)),
+        "remove the repeated corner",
+        content.place(face),
+    )
 
 
 def _bow_tie(content: Content, faces: Iterable[int], vertex: int) -> Fault:
     *others, last = sorted(faces)
     return Fault(
-        f"at {content.vertex(vertex)} the fan of this face touches another without sharing an edge, a bow tie "
-        f"(other faces there: {_listed(content, others)})",
+        phrase(
+            "at {vertex} the fan of this face touches another without sharing an edge, a bow tie "
+            "(other faces there: {others})",
+            vertex=content.vertex(vertex),
+            others=_listed(content, others),
+        ),
         "give each fan a vertex of its own",
         content.place(last),
     )
@@ -144,7 +154,7 @@ def _flipped(content: Content, faces: Iterable[int], ends: tuple[int, ...]) -> F
     first, last = sorted(faces)
     a, b = map(content.vertex, ends)
     return Fault(
-        f"this face and the one at {content.place(first)} both run from {a} to {b}",
+        phrase("this face and the one at {place} both run from {a} to {b}", place=content.place(first), a=a, b=b),
         "reverse the corner order of one of them, or remove one if they are the same",
         content.place(last),
     )
@@ -154,7 +164,13 @@ def _crowded_edge(content: Content, faces: Iterable[int], ends: tuple[int, ...])
     *others, last = sorted(faces)
     a, b = map(content.vertex, ends)
     return Fault(
-        f"this is one of {len(others) + 1} faces at the edge between {a} and {b} (others: {_listed(content, others)})",
+        phrase(
+            "this is one of {n} faces at the edge between {a} and {b} (others: {others})",
+            n=len(others) + 1,
+            a=a,
+            b=b,
+            others=_listed(content, others),
+        ),
         "a surface has at most two there, so remove the rest or split the edge",
         content.place(last),
     )
@@ -162,8 +178,4 @@ def _crowded_edge(content: Content, faces: Iterable[int], ends: tuple[int, ...])
 
 def _listed(content: Content, faces: list[int]) -> str:
     shown = ", ".join(content.place(f) for f in faces[:5])
-    return f"{shown} and {len(faces) - 5} more" if len(faces) > 5 else shown
-
-
-def _counted(n: int, one: str, more: str) -> str:
-    return f"{n} {one if n == 1 else more}"
+    return phrase("{shown} and {n} more", shown=shown, n=len(faces) - 5) if len(faces) > 5 else shown

@@ -3,6 +3,8 @@
 import errno
 from pathlib import Path
 
+from subdivision.words import phrase
+
 
 class FileError(ValueError):
     """A file that cannot be read or written; ``str`` of it is a sentence for whoever chose the file."""
@@ -18,17 +20,18 @@ class Fault(Exception):
     @classmethod
     def at_line(cls, line: int, what: str, mend: str) -> "Fault":
         """The fault of a line, counted from 1."""
-        return cls(what, mend, f"line {line}")
+        return cls(what, mend, phrase("line {line}", line=line))
 
     @classmethod
     def at_byte(cls, byte: int, what: str, mend: str) -> "Fault":
         """The fault of a byte, counted from 0."""
-        return cls(what, mend, f"byte {byte}")
+        return cls(what, mend, phrase("byte {byte}", byte=byte))
 
     def in_file(self, path: Path) -> FileError:
         """The sentence, beginning with the name of the file."""
-        place = f", {self.place}" if self.place else ""
-        return FileError(f"{printable(path.name or str(path))}{place}: {self.what}; {self.mend}")
+        sentence = "{file}, {place}: {what}; {mend}" if self.place else "{file}: {what}; {mend}"
+        name = printable(path.name or str(path))
+        return FileError(phrase(sentence, file=name, place=self.place, what=self.what, mend=self.mend))
 
 
 def fault_of_system(error: OSError | MemoryError, path: Path) -> Fault:
@@ -37,13 +40,13 @@ def fault_of_system(error: OSError | MemoryError, path: Path) -> Fault:
     if isinstance(error, MemoryError):
         return Fault("it needs more memory than there is", "close other programs or choose a smaller mesh")
     if isinstance(error, FileNotFoundError):
-        return Fault(f"there is no such file in {folder}", "check the name and the folder")
+        return Fault(phrase("there is no such file in {folder}", folder=folder), "check the name and the folder")
     if isinstance(error, PermissionError):
         return Fault("you are not permitted to open it there", "change its permissions or choose another folder")
     if error.errno == errno.ENOSPC:
-        return Fault(f"no space is left for it in {folder}", "free some or choose another folder")
+        return Fault(phrase("no space is left for it in {folder}", folder=folder), "free some or choose another folder")
     reason = printable(error.strerror or type(error).__name__)
-    return Fault(f"the system refused it ({reason})", "check the name, or choose another folder")
+    return Fault(phrase("the system refused it ({reason})", reason=reason), "check the name, or choose another folder")
 
 
 def printable(text: str) -> str:

@@ -19,6 +19,7 @@ from subdivision.files.text import Faces, Vertices, number, rows, text_lines, wh
 from subdivision.rows import shown_faces
 from subdivision.topology import Topology
 from subdivision.trace import Mesh
+from subdivision.words import phrase
 
 _MODEL = {
     b"crease": "'t crease 2/1/0 a b s' with vertices a and b, counted from 0, and sharpness s",
@@ -40,7 +41,9 @@ class _Found:
 
     def vertex(self, line: int, words: list[bytes]) -> None:
         if len(words) < 4:
-            raise Fault.at_line(line, f"this vertex has {len(words) - 1} of 3 coordinates", "write it as 'v x y z'")
+            raise Fault.at_line(
+                line, phrase("this vertex has {found} of 3 coordinates", found=len(words) - 1), "write it as 'v x y z'"
+            )
         self.vertices.add(line, words[1:4])
 
     def face(self, line: int, words: list[bytes]) -> None:
@@ -55,7 +58,9 @@ class _Found:
         per = 2 if name == b"crease" else 1
         if not numbers or len(numbers) % per or len(sharpness) not in (1, len(numbers) // per):
             raise Fault.at_line(
-                line, f"this {name.decode()} has too many or too few arguments", f"write {_MODEL[name]}"
+                line,
+                phrase("this {tag} has too many or too few arguments", tag=name.decode()),
+                phrase("write {model}", model=_MODEL[name]),
             )
         for k in range(len(numbers) // per):
             value = sharpness[k] if len(sharpness) > 1 else sharpness[0]
@@ -90,16 +95,20 @@ def read(data: bytes) -> Content:
     for a, b in found.creases:
         if b >= len(points):
             raise Fault.at_line(
-                found.crease_lines[a, b], f"there is no vertex {b} to crease", f"write {_MODEL[b'crease']}"
+                found.crease_lines[a, b],
+                phrase("there is no vertex {b} to crease", b=b),
+                phrase("write {model}", model=_MODEL[b"crease"]),
             )
     for v in found.sharp:
         if v >= len(points):
             raise Fault.at_line(
-                found.sharp_lines[v], f"there is no vertex {v} to sharpen", f"write {_MODEL[b'corner']}"
+                found.sharp_lines[v],
+                phrase("there is no vertex {v} to sharpen", v=v),
+                phrase("write {model}", model=_MODEL[b"corner"]),
             )
     return Content(
         points, np.array(found.faces.sizes), _from_zero(found), np.array(found.faces.lines),
-        vertex=lambda v: f"vertex {v + 1}", creases=found.creases, sharp_corners=found.sharp,
+        vertex=lambda v: phrase("vertex {number}", number=v + 1), creases=found.creases, sharp_corners=found.sharp,
         tag_lines=found.crease_lines,
     )  # fmt: skip
 
@@ -136,28 +145,40 @@ def _unknown_vertex(written: int, n: int, before: int, line: int) -> Fault:
     if written < 0:
         return Fault.at_line(
             line,
-            f"this face names vertex {written}, but only {before} come before it",
+            phrase(
+                "this face names vertex {written}, but only {before} come before it", written=written, before=before
+            ),
             "correct the number or move the face down",
         )
-    known = f"the vertices are numbered from 1 to {n}" if n else "there are no vertices"
-    return Fault.at_line(line, f"this face names vertex {written}, but {known}", "correct the number or add the vertex")
+    known = phrase("the vertices are numbered from 1 to {n}", n=n) if n else "there are no vertices"
+    return Fault.at_line(
+        line,
+        phrase("this face names vertex {written}, but {known}", written=written, known=known),
+        "correct the number or add the vertex",
+    )
 
 
 def _arguments(line: int, words: list[bytes]) -> tuple[list[int], list[float]]:
     """The whole numbers and the sharpnesses of a tag, as many as it announces."""
     counts = words[2].split(b"/") if len(words) > 2 else []
     if len(counts) != 3:
-        raise Fault.at_line(line, "this tag does not say how many arguments it has", f"write {_MODEL[words[1]]}")
+        raise Fault.at_line(
+            line, "this tag does not say how many arguments it has", phrase("write {model}", model=_MODEL[words[1]])
+        )
     n, m, _ = (whole(word, "a number of arguments", line) for word in counts)
     if len(words) < 3 + n + m:
         raise Fault.at_line(
-            line, f"this tag announces {n + m} arguments and has {len(words) - 3}", f"write {_MODEL[words[1]]}"
+            line,
+            phrase("this tag announces {announced} arguments and has {found}", announced=n + m, found=len(words) - 3),
+            phrase("write {model}", model=_MODEL[words[1]]),
         )
     numbers = [whole(word, "a tagged vertex", line) for word in words[3 : 3 + n]]
     sharpness = [number(word, "a sharpness", line) for word in words[3 + n : 3 + n + m]]
     for word, value in zip(words[3 + n :], sharpness, strict=False):
         if not value >= 0:
-            raise Fault.at_line(line, f"a sharpness is {quoted(word)}", "write a number from 0 (smooth) to 10 (sharp)")
+            raise Fault.at_line(
+                line, phrase("a sharpness is {word}", word=quoted(word)), "write a number from 0 (smooth) to 10 (sharp)"
+            )
     return numbers, sharpness
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from subdivision.files.content import Content, require_known
 from subdivision.files.faults import Fault, quoted
 from subdivision.files.text import Faces, Row, Vertices, rows, text_lines, whole
+from subdivision.words import phrase
 
 _KEYWORD = re.compile(rb"(ST)?C?N?(4?n?)OFF")
 
@@ -28,13 +29,24 @@ def read(data: bytes) -> Content:
     if len(vertices) + len(faces) < n_vertices + n_faces:
         raise Fault.at_line(
             len(lines),
-            f"the file ends after {len(vertices)} of {n_vertices} vertices and {len(faces)} of {n_faces} faces",
-            f"correct the counts in line {line}, or export the mesh again if it was cut short",
+            phrase(
+                "the file ends after {vertices} of {n_vertices} vertices and {faces} of {n_faces} faces",
+                vertices=len(vertices),
+                n_vertices=n_vertices,
+                faces=len(faces),
+                n_faces=n_faces,
+            ),
+            phrase("correct the counts in line {line}, or export the mesh again if it was cut short", line=line),
         )
     if extra := next(body, None):
         raise Fault.at_line(
             extra[0],
-            f"there is more than the {n_vertices} vertices and {n_faces} faces that line {line} counts",
+            phrase(
+                "there is more than the {n_vertices} vertices and {n_faces} faces that line {line} counts",
+                n_vertices=n_vertices,
+                n_faces=n_faces,
+                line=line,
+            ),
             "correct the counts or remove the rest",
         )
     return require_known(Content(vertices.points(), np.array(faces.sizes), faces.corners(), np.array(faces.lines)))
@@ -46,10 +58,14 @@ def _counts(body: Iterator[Row]) -> tuple[int, int, int]:
     keyword = _KEYWORD.match(words[0])
     if not keyword:
         raise Fault.at_line(
-            line, f"it begins with {quoted(words[0])}, not 'OFF'", "choose an OFF file or its right suffix"
+            line,
+            phrase("it begins with {word}, not 'OFF'", word=quoted(words[0])),
+            "choose an OFF file or its right suffix",
         )
     if keyword[2]:
-        raise Fault.at_line(line, f"{quoted(words[0])} has points that are not in space", "export it as plain OFF")
+        raise Fault.at_line(
+            line, phrase("{word} has points that are not in space", word=quoted(words[0])), "export it as plain OFF"
+        )
     rest = [word for word in (words[0][keyword.end() :], *words[1:]) if word]
     if rest[:1] == [b"BINARY"]:
         raise Fault.at_line(line, "it is binary OFF", "export it as text, or as PLY")
@@ -64,7 +80,9 @@ def _vertices(body: Iterator[Row]) -> Vertices:
     for line, words in body:
         if len(words) < 3:
             raise Fault.at_line(
-                line, f"this vertex has {len(words)} of 3 coordinates", "write all three, or correct the counts"
+                line,
+                phrase("this vertex has {found} of 3 coordinates", found=len(words)),
+                "write all three, or correct the counts",
             )
         found.add(line, words[:3])
     return found
@@ -77,7 +95,7 @@ def _faces(body: Iterator[Row]) -> Faces:
         if len(words) <= size:
             raise Fault.at_line(
                 line,
-                f"this face announces {size} corners and names {len(words) - 1}",
+                phrase("this face announces {size} corners and names {found}", size=size, found=len(words) - 1),
                 "name them all in this line, or correct the number",
             )
         found.add(line, words[1 : size + 1])

@@ -14,6 +14,7 @@ from subdivision.files.ply_body import Wanted, binary_content, text_content
 from subdivision.files.ply_header import Element, Header, Property, header_of
 from subdivision.rows import shown_faces
 from subdivision.trace import Mesh
+from subdivision.words import phrase
 
 
 def read(data: bytes) -> Content:
@@ -38,7 +39,9 @@ def _xyz(vertex: Element | None, header: Header) -> tuple[Property, ...]:
     found = [vertex.property(name) for name in "xyz"]
     for name, p in zip("xyz", found, strict=True):
         if p is None or p.count:
-            raise Fault.at_line(vertex.line, f"vertices have no property '{name}'", "export them with x, y and z")
+            raise Fault.at_line(
+                vertex.line, phrase("vertices have no property '{name}'", name=name), "export them with x, y and z"
+            )
     return tuple(p for p in found if p)
 
 

@@ -13,6 +13,7 @@ from subdivision.files.content import Content, too_few_corners
 from subdivision.files.faults import Fault
 from subdivision.files.ply_header import Element, Header, Property
 from subdivision.files.text import Faces, Row, Vertices, require_finite, rows, text_lines, whole
+from subdivision.words import phrase
 
 _CUT = "export the mesh again if it was cut short, or correct the number of rows in the header"
 _CODES = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "i8": "q", "u8": "Q"}
@@ -35,7 +36,16 @@ def text_content(data: bytes, header: Header, wanted: Wanted) -> Content:
     for element in header.elements:
         n = _kept(element, wanted.get(element.name, ()), remaining, keeps.get(element.name, _pass_over))
         if n < element.n and element.properties:
-            raise Fault.at_line(last, f"the file ends after {n} of {element.n} rows of element {element.called}", _CUT)
+            raise Fault.at_line(
+                last,
+                phrase(
+                    "the file ends after {n} of {rows} rows of element {element}",
+                    n=n,
+                    rows=element.n,
+                    element=element.called,
+                ),
+                _CUT,
+            )
     if extra := next(remaining, None):
         raise Fault.at_line(
             extra[0], "there are more rows than the header declares", "correct its numbers or remove them"
@@ -59,7 +69,7 @@ def _kept(element: Element, chosen: tuple[Property, ...], remaining: Iterator[Ro
         except IndexError:
             raise Fault.at_line(
                 line,
-                f"this row of element {element.called} has only {len(row)} words",
+                phrase("this row of element {element} has only {found} words", element=element.called, found=len(row)),
                 "complete it or export the mesh again",
             ) from None
     return n
@@ -148,9 +158,9 @@ class _Walk:
             raise _cut(self._element, self._data)
         n = count.unpack_from(self._data, at)[0]
         if n < 0:
-            raise Fault.at_byte(at, f"a list of {n} values begins here", "export the mesh again")
+            raise Fault.at_byte(at, phrase("a list of {n} values begins here", n=n), "export the mesh again")
         if column == self._loop and n < 3:  # at once, for millions of them fit into a small file
-            raise too_few_corners(n, f"byte {at}")
+            raise too_few_corners(n, phrase("byte {at}", at=at))
         return int(count.size + n * size)
 
     def _row_by_row(self, at: int, n: int) -> tuple[Indices, int]:
@@ -182,5 +192,10 @@ def _gathered(data: bytes, begins: Indices, kind: str) -> NDArray[Any]:
 
 
 def _cut(element: Element, data: bytes) -> Fault:
-    what = f"the file ends before all rows of element {element.called} (line {element.line} declares {element.n})"
+    what = phrase(
+        "the file ends before all rows of element {element} (line {line} declares {rows})",
+        element=element.called,
+        line=element.line,
+        rows=element.n,
+    )
     return Fault.at_byte(len(data), what, _CUT)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from subdivision.files.faults import Fault, printable, quoted
 from subdivision.files.text import whole
+from subdivision.words import phrase
 
 _TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -80,7 +81,11 @@ def header_of(data: bytes) -> Header:
         n = data.count(newline) + 1
         raise Fault.at_line(n, "the file ends before 'end_header'", "export the mesh again, it was cut short")
     if size > _LONGEST:
-        raise Fault.at_line(1, f"the header has {size:,} bytes", f"write one of {_LONGEST:,} at most")
+        raise Fault.at_line(
+            1,
+            phrase("the header has {size:,} bytes", size=size),
+            phrase("write one of {most:,} at most", most=_LONGEST),
+        )
     lines = data[begin.end() : end].split(newline) if end >= begin.end() else []
     header = _declared(lines)
     return replace(header, size=size + len(newline), n_lines=len(lines) + 2)
@@ -102,7 +107,7 @@ def _declared(lines: list[bytes]) -> Header:
             case [b"property", *rest] if properties:
                 properties[-1].append(_property(rest, number))
             case _:
-                what = f"{quoted(b' '.join(words))} is no line of a PLY header, or one too many"
+                what = phrase("{words} is no line of a PLY header, or one too many", words=quoted(b" ".join(words)))
                 raise Fault.at_line(number, what, "correct it or export the mesh again")
     if order is None:
         raise Fault.at_line(2, "no 'format' is declared", "add a line such as 'format ascii 1.0'")
@@ -118,6 +123,6 @@ def _property(words: list[bytes], line: int) -> Property:
             return Property(name, _TYPES[kind])
     raise Fault.at_line(
         line,
-        f"'property' is followed by {quoted(b' '.join(words))}",
+        phrase("'property' is followed by {words}", words=quoted(b" ".join(words))),
         "write 'property float x' or 'property list uchar int vertex_indices', with the types of PLY",
     )

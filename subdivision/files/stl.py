@@ -14,6 +14,7 @@ from subdivision.files.faults import Fault, quoted
 from subdivision.files.text import BYTE_ORDER_MARK, Row, Vertices, require_finite, rows, text_lines
 from subdivision.files.triangles import normals, triangles
 from subdivision.trace import Mesh
+from subdivision.words import phrase
 
 _HEADER, _TRIANGLE = 84, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _PASSED_OVER = (b"outer", b"endloop")
@@ -39,7 +40,12 @@ def read(data: bytes) -> Content:
         )
     raise Fault.at_byte(
         80,
-        f"{announced} triangles are announced, which takes {size} bytes, but the file has {len(data)}",
+        phrase(
+            "{announced} triangles are announced, which takes {size} bytes, but the file has {found}",
+            announced=announced,
+            size=size,
+            found=len(data),
+        ),
         "export the mesh again, it was cut short or its count is wrong",
     )
 
@@ -61,7 +67,7 @@ def _text(data: bytes) -> Content:
     if facets.open_facet or facets.open_solid:
         raise Fault.at_line(
             len(lines),
-            f"the file ends before '{'endfacet' if facets.open_facet else 'endsolid'}'",
+            "the file ends before 'endfacet'" if facets.open_facet else "the file ends before 'endsolid'",
             "export the mesh again, it was cut short",
         )
     return _merged(facets.vertices.points(), np.array(facets.sizes), np.array(facets.lines), "line")
@@ -98,7 +104,9 @@ class _Facets:
         self._require(self.open_facet, (line, words))
         if len(words) < 4:
             raise Fault.at_line(
-                line, f"this vertex has {len(words) - 1} of 3 coordinates", "write it as 'vertex x y z'"
+                line,
+                phrase("this vertex has {found} of 3 coordinates", found=len(words) - 1),
+                "write it as 'vertex x y z'",
             )
         self.vertices.add(line, words[1:4])
         self.sizes[-1] += 1
@@ -107,7 +115,7 @@ class _Facets:
         if not expected:
             raise Fault.at_line(
                 row[0],
-                f"{quoted(row[1][0])} does not belong here",
+                phrase("{word} does not belong here", word=quoted(row[1][0])),
                 "write each triangle as facet, outer loop, three vertices, endloop, endfacet",
             )
 

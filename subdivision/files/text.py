@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from subdivision.arrays import Floats, Indices
 from subdivision.files.faults import Fault, quoted
+from subdivision.words import phrase
 
 Row: TypeAlias = tuple[int, list[bytes]]
 """A line's number, counted from 1, and its words."""
@@ -110,7 +111,9 @@ class Vertices:
 
     def _fault(self, position: int, word: bytes) -> Fault:
         line = self.lines[position // 3]
-        return Fault.at_line(line, f"{quoted(word)} is not a number", "write every coordinate as a decimal number")
+        return Fault.at_line(
+            line, phrase("{word} is not a number", word=quoted(word)), "write every coordinate as a decimal number"
+        )
 
 
 class Faces:
@@ -139,7 +142,7 @@ class Faces:
 
     def _fault(self, position: int, word: bytes) -> Fault:
         line = self.lines[self.face(position)]
-        return Fault.at_line(line, f"{quoted(word)} is not a vertex number", "write a whole number")
+        return Fault.at_line(line, phrase("{word} is not a vertex number", word=quoted(word)), "write a whole number")
 
 
 class _Numbers:
@@ -187,7 +190,7 @@ def require_finite(points: Floats, where: Indices | Sequence[int], unit: str) ->
         v = int(bad[0])
         value = points[v][~np.isfinite(points[v])][0]
         raise Fault(
-            f"a coordinate is {value}",
+            phrase("a coordinate is {value}", value=value),
             "replace it with a finite number or export the mesh again",
             f"{unit} {where[v]}",
         )
@@ -197,7 +200,9 @@ def whole(word: bytes, what: str, line: int) -> int:
     """The count that ``word`` spells."""
     value = _one(int, word)
     if value is None or value < 0:
-        raise Fault.at_line(line, f"{what} is {quoted(word)}", "write a whole number, 0 or more")
+        raise Fault.at_line(
+            line, phrase("{what} is {word}", what=what, word=quoted(word)), "write a whole number, 0 or more"
+        )
     return value
 
 
@@ -205,7 +210,7 @@ def number(word: bytes, what: str, line: int) -> float:
     """The number that ``word`` spells."""
     value = _one(float, word)
     if value is None:
-        raise Fault.at_line(line, f"{what} is {quoted(word)}", "write a decimal number")
+        raise Fault.at_line(line, phrase("{what} is {word}", what=what, word=quoted(word)), "write a decimal number")
     return value
 
 

@@ -23,6 +23,7 @@ from subdivision.rows import Connectivity, Polyline
 from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step
 from subdivision.weights import Weights
+from subdivision.words import phrase
 
 
 class Ends(Enum):
@@ -37,10 +38,15 @@ class Ends(Enum):
 def four_point(tension: Fraction | float = CUBIC, ends: Ends = Ends.SHORTENED) -> Scheme:
     """The scheme of a ``tension``; a float is taken as the binary fraction that it is."""
     w = Fraction(tension)
-    words = "" if ends is Ends.SHORTENED else f", {ends.value} ends"
+    is_usual = ends is Ends.SHORTENED
+    title = "Four-point scheme, tension {w}" if is_usual else "Four-point scheme, tension {w}, {ends} ends"
     return Scheme(
-        name=f"four-point {w}{words}",
-        title=f"Four-point scheme, tension {w}{words}",
+        name=f"four-point {w}" if is_usual else f"four-point {w}, {ends.value} ends",
+        title=phrase(
+            "Four-point scheme, tension {w}" if is_usual else "Four-point scheme, tension {w}, {ends} ends",
+            w=w,
+            ends=ends.value,
+        ),  # fmt: skip
         paper="DGL87",
         refuses=partial(_refuses, ends=ends),
         tellings={

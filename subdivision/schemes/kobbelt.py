@@ -31,6 +31,7 @@ from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step, grown
 from subdivision.topology import Topology
 from subdivision.weights import by_value
+from subdivision.words import phrase
 
 
 def kobbelt(tension: Fraction | float = CUBIC) -> Scheme:
@@ -39,7 +40,7 @@ def kobbelt(tension: Fraction | float = CUBIC) -> Scheme:
     words = "" if w == CUBIC else f" {w}"
     return Scheme(
         name=f"kobbelt{words}",
-        title=f"Kobbelt's interpolating quads{words and f', tension{words}'}",
+        title=phrase("Kobbelt's interpolating quads, tension {w}" if words else "Kobbelt's interpolating quads", w=w),
         paper="Kob96",
         refuses=_refuses,
         tellings={

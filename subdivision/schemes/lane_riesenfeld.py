@@ -13,6 +13,7 @@ from subdivision.passes import Pass, at_once, average, merged, room, split, told
 from subdivision.rows import Connectivity, Polyline
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
+from subdivision.words import phrase
 
 ALONG = (1, 0)
 
@@ -26,10 +27,12 @@ def lane_riesenfeld(degree: int) -> Scheme:
         For a degree below 1: it would split without averaging.
     """
     if degree < 1:
-        raise TopologyError(f"a curve of degree {degree} cannot be averaged into being; choose degree 1 or more")
+        raise TopologyError(
+            phrase("a curve of degree {degree} cannot be averaged into being; choose degree 1 or more", degree=degree)
+        )
     return Scheme(
         name=f"lane-riesenfeld-{degree}",
-        title=f"Lane-Riesenfeld, degree {degree}",
+        title=phrase("Lane-Riesenfeld, degree {degree}", degree=degree),
         paper="LR80",
         refuses=partial(_refuses, degree=degree),
         tellings={
@@ -46,11 +49,11 @@ def told_in_two(t: Connectivity, degree: int) -> Step:
     topology = merged("topology", [split(0), average(ALONG)])
     if degree == 3:  # two averages send a point to the midpoint of the midpoints beside it
         return topology_and_geometry(t, topology)
-    return told(t, [topology, *(average(ALONG, f"average {k}") for k in range(2, degree + 1))])
+    return told(t, [topology, *(average(ALONG, phrase("average {k}", k=k)) for k in range(2, degree + 1))])
 
 
 def _split_and_average(degree: int) -> list[Pass]:
-    return [split(0), *(average(ALONG, f"average {k}") for k in range(1, degree + 1))]
+    return [split(0), *(average(ALONG, phrase("average {k}", k=k)) for k in range(1, degree + 1))]
 
 
 def _refuses(t: Connectivity, degree: int) -> str:

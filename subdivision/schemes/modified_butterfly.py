@@ -30,6 +30,7 @@ from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step, grown
 from subdivision.topology import Topology
 from subdivision.weights import by_value
+from subdivision.words import phrase
 
 FEW = {3: (Fraction(5, 12), Fraction(-1, 12), Fraction(-1, 12)), 4: (Fraction(3, 8), 0, Fraction(-1, 8), 0)}
 
@@ -116,8 +117,9 @@ def _refuses(t: Connectivity) -> str:
         return reason
     pairs = np.flatnonzero((t.valence == 2) & ~t.on_boundary)
     if pairs.size:
-        return (
-            f"vertex {pairs[0]} has two triangles only, glued back to back, and the rule begins with three; remove it"
+        return phrase(
+            "vertex {vertex} has two triangles only, glued back to back, and the rule begins with three; remove it",
+            vertex=pairs[0],
         )
     return meshes.refuses_sharp(t) or meshes.refuses_literal_boundaries(t)
 

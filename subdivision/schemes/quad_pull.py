@@ -12,6 +12,7 @@ from subdivision.centroids import quad_averaging, quad_stencils
 from subdivision.limit_rules import quad_limit
 from subdivision.limit_tangents import quad_tangents
 from subdivision.scheme import Scheme
+from subdivision.words import phrase
 
 REGULAR = 4
 
@@ -21,7 +22,7 @@ def quad_pull(pull: Fraction = Fraction(1)) -> Scheme:
     way = partial(_way, pull)
     return Scheme(
         name="quad-pull",
-        title=f"Quads, {pull} of the way",
+        title=phrase("Quads, {pull} of the way", pull=pull),
         paper="WW02",
         refuses=meshes.refuses_non_quads,
         tellings={

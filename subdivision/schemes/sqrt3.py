@@ -27,6 +27,7 @@ from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step, grown
 from subdivision.topology import Topology
 from subdivision.weights import by_count
+from subdivision.words import phrase
 
 
 def pull(n: int) -> Exact:
@@ -94,9 +95,11 @@ def _refuses(t: Connectivity) -> str:
         return reason
     if t.boundary.any():
         a, b = t.ends[np.flatnonzero(t.boundary)[0]]
-        return (
-            f"it ends at the edge between vertices {a} and {b}, and boundary edges are cut in every second step only; "
-            "close the mesh, or use Loop"
+        return phrase(
+            "it ends at the edge between vertices {a} and {b}, and boundary edges are cut in every "
+            "second step only; close the mesh, or use Loop",
+            a=a,
+            b=b,
         )
     return meshes.refuses_sharp(t)
 

@@ -24,6 +24,7 @@ from subdivision.passes import (
 )
 from subdivision.rows import Connectivity, Grid
 from subdivision.scheme import Scheme
+from subdivision.words import phrase
 
 S, T = (1, 0), (0, 1)
 
@@ -39,7 +40,7 @@ def tensor_product(m: int, n: int, order: str = "") -> Scheme:
         For a degree below 1, or an order that has not ``m`` times s and ``n`` times t.
     """
     if min(m, n) < 1:
-        raise TopologyError(f"bidegree ({m}, {n}) needs both degrees to be 1 or more")
+        raise TopologyError(phrase("bidegree ({m}, {n}) needs both degrees to be 1 or more", m=m, n=n))
     in_order = [quadruple, *[average(S)] * m, *[average(T)] * n]
     tellings = {
         "s, then t": lambda t: told(t, [split(0), *[average(S)] * m, split(1), *[average(T)] * n]),
@@ -55,10 +56,10 @@ def tensor_product(m: int, n: int, order: str = "") -> Scheme:
         tellings["two rounds"] = lambda t: told(t, rounds)
     if order:
         in_this_order = [quadruple, *_ordered(order, m, n)]
-        tellings[f"quadruple, then {order}"] = lambda t: told(t, in_this_order)
+        tellings[phrase("quadruple, then {order}", order=order)] = lambda t: told(t, in_this_order)
     return Scheme(
         name=f"tensor-product-{m}-{n}",
-        title=f"Tensor product B-spline of bidegree ({m}, {n})",
+        title=phrase("Tensor product B-spline of bidegree ({m}, {n})", m=m, n=n),
         paper="LR80",
         refuses=partial(_refuses, lost=(m, n)),
         tellings=tellings,
@@ -74,7 +75,9 @@ def alternating(m: int, n: int) -> list[Pass]:
 
 def _ordered(order: str, m: int, n: int) -> list[Pass]:
     if sorted(order) != ["s"] * m + ["t"] * n:
-        raise TopologyError(f"the order '{order}' must have {m} times s and {n} times t, and nothing else")
+        raise TopologyError(
+            phrase("the order '{order}' must have {m} times s and {n} times t, and nothing else", order=order, m=m, n=n)
+        )
     return [average(S if direction == "s" else T) for direction in order]
 
 

@@ -13,6 +13,7 @@ from subdivision.centroids import triangle_averaging, triangle_stencils
 from subdivision.limit_rules import triangle_limit
 from subdivision.limit_tangents import triangle_tangents
 from subdivision.scheme import Scheme
+from subdivision.words import phrase
 
 REGULAR = 6
 
@@ -22,7 +23,7 @@ def triangle_pull(pull: Fraction = Fraction(1)) -> Scheme:
     way, beta = partial(_way, pull), partial(_beta, pull)
     return Scheme(
         name="triangle-pull",
-        title=f"Triangles, {pull} of the way",
+        title=phrase("Triangles, {pull} of the way", pull=pull),
         paper="WW02",
         refuses=meshes.refuses_non_triangles,
         tellings={

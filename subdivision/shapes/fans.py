@@ -14,6 +14,7 @@ from subdivision.manifold import TopologyError
 from subdivision.shapes.build import mesh, meshed, turns
 from subdivision.shapes.nets import net
 from subdivision.trace import Mesh
+from subdivision.words import phrase
 
 
 def quad_sheet(n: int = 4) -> Mesh:
@@ -126,7 +127,9 @@ def two_triangles_and_ring() -> Mesh:
 
 def _require_fan(n: int, rings: int) -> None:
     if n < 3 or rings < 1:
-        raise TopologyError(f"a fan needs three faces and one ring or more, not {n} faces and {rings} rings")
+        raise TopologyError(
+            phrase("a fan needs three faces and one ring or more, not {n} faces and {rings} rings", n=n, rings=rings)
+        )
 
 
 def _corner_path(r: int) -> list[tuple[int, int]]:
