@@ -7,6 +7,7 @@ from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QSizePolicy, QWidget
 
 from app.draw.theme import THEMES, mixed
+from app.gui.furniture import throw_away
 from app.gui.look import GRID, chosen_of, colour, icon
 from app.gui.session import Session
 from app.gui.timeline import tool_button
@@ -21,6 +22,13 @@ class Banner(QWidget):
         super().__init__()
         self._session = session
         self._is_fault, self._said_in = False, session.state.lesson
+        self._on_cancel: Callable[[], None] = self.hide
+        self._on_accept: Callable[[], None] = self.hide
+        self._row = QHBoxLayout(self)
+        self._build()
+        self.hide()
+
+    def _build(self) -> None:
         self.words = QLabel(wordWrap=True)
         self.words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.words.setFocusPolicy(Qt.FocusPolicy.NoFocus)
@@ -33,18 +41,31 @@ class Banner(QWidget):
         self.accept = QPushButton()
         self.accept.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.accept.clicked.connect(self._accepted)
-        self._close = tool_button("close", session.state.options.theme)
+        self._close = tool_button("close", self._session.state.options.theme)
         self._close.setToolTip("Close this message (Esc)")
         self._close.setAccessibleName("Close this message")
         self._close.clicked.connect(self.hide)
-        self._on_cancel: Callable[[], None] = self.hide
-        self._on_accept: Callable[[], None] = self.hide
-        row = QHBoxLayout(self)
-        row.setContentsMargins(2 * GRID, GRID, GRID, GRID)
-        row.setSpacing(2 * GRID)
-        for each in (self.words, self._busy, self.accept, self._cancel, self._close):
-            row.addWidget(each)
-        self.hide()
+        self._row.setContentsMargins(2 * GRID, GRID, GRID, GRID)
+        self._row.setSpacing(2 * GRID)
+        for each in self._parts():
+            self._row.addWidget(each)
+
+    def _parts(self) -> tuple[QWidget, ...]:
+        return self.words, self._busy, self.accept, self._cancel, self._close
+
+    def furnish(self) -> None:
+        """The same message on a new strip."""
+        words, busy, accept = self.words, self._busy, self.accept
+        parts = self._parts()
+        hidden = [each.isHidden() for each in parts]
+        self._build()
+        self.words.setText(words.text())
+        self._busy.setRange(busy.minimum(), busy.maximum())
+        self._busy.setValue(busy.value())
+        self.accept.setText(accept.text())
+        for each, is_hidden in zip(self._parts(), hidden, strict=True):
+            each.setHidden(is_hidden)
+        throw_away(parts)
 
     def show_state(self, state: State) -> None:
         """A message goes when the lesson it was said in goes; what is still under way or offered stays."""

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from app.bench import enter
 from app.draw.theme import THEMES
+from app.gui.furniture import scroll_alike
 from app.gui.look import GRID, chosen_of, colour, icon, tint_of, type_face
 from app.gui.session import Session
 from app.lab import LABORATORY, SECTION
@@ -69,6 +70,15 @@ class Contents(QWidget):
         if was is None or was.options.theme != state.options.theme:
             self._dress(state.options.theme)
         self._shown = state
+
+    def inherit(self, before: "Contents") -> None:
+        """Take over what is searched for, how far the list is scrolled, and lessons from elsewhere."""
+        listed = {each.id for each in self._lessons}
+        self._lessons += [each for each in before._lessons if each.id not in listed]
+        self._fill()
+        self.list.setCurrentIndex(self._index_of(self._session.state.lesson))
+        self.search.setText(before.search.text())
+        scroll_alike(self.list, before.list)
 
     def _dress(self, theme: str) -> None:
         for action in self.search.actions():

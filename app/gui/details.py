@@ -3,6 +3,7 @@
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtWidgets import QScrollArea, QWidget
 
+from app.gui.furniture import scroll_alike
 from app.gui.look import GRID
 from app.gui.parts import Head, column
 
@@ -32,6 +33,12 @@ class Details(QScrollArea):
         folded = [kept] if isinstance(kept, str) else list(kept)
         for head in self._heads():
             head.setChecked(head.text() not in folded)
+
+    def inherit(self, before: "Details") -> None:
+        """Take over what is folded away, and how far it is scrolled."""
+        for head, was in zip(self._heads(), before._heads(), strict=True):
+            head.setChecked(was.isChecked())
+        scroll_alike(self, before)
 
     def _heads(self) -> list[Head]:
         return self.findChildren(Head)

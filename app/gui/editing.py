@@ -71,6 +71,8 @@ class Editing(QWidget):
         self._cells = QGridLayout(grid)
         self._cells.setContentsMargins(0, GRID // 2, 0, GRID // 2)
         self._cells.setSpacing(GRID // 2)
+        for button in self.buttons.values():
+            button.setParent(grid)  # those that are not offered are in no cell
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         numbers = (self.n_s, self.n_t, self.wrap_s, self.wrap_t, self.closed, self.valence, self.rings)

@@ -30,11 +30,9 @@ BOUNDARIES = tuple((b.value.replace("-", " ").capitalize(), b) for b in Boundary
 class Laboratory(QWidget):
     """Shown while the laboratory is open; a wish that a scheme refuses is answered with its sentence."""
 
-    def __init__(self, session: Session, banner: Banner) -> None:
+    def __init__(self, session: Session, banner: Banner, worker: Worker) -> None:
         super().__init__()
-        self._session = session
-        self.worker = Worker(session, banner)
-        self._banner = banner
+        self._session, self._banner, self.worker = session, banner, worker
         self._about: tuple[object, ...] = ()
         self.panes: list[Pane] = []
         self.shape = Choice("Object", self._take)
@@ -79,7 +77,11 @@ class Laboratory(QWidget):
         """Say why not; what is shown is then what is so."""
         self._banner.say(sentence)
         self._about = ()
-        self.show_state(self._session.state)
+        self._session.changed.emit(self._session.state)  # not to this panel: another may be in its place by now
+
+    def inherit(self, before: "Laboratory") -> None:
+        """Take over what the panel before had chosen."""
+        self.vectors.inherit(before.vectors)
 
     def show_state(self, state: State) -> None:
         is_open = bench.is_open(state) and state.lab is not None

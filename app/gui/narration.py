@@ -48,6 +48,10 @@ class Narration(QWidget):
             self.setAccessibleName(f"{said(state, state.now)} {state.now.formula}")
             self.update()
 
+    def furnish(self) -> None:
+        """Say it again, in other words or another size."""
+        self._now = ()
+
     def height_for(self, width: int, window_height: int) -> int:
         """Room for every beat of the lesson, on the grid."""
         state = self._session.state

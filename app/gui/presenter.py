@@ -9,6 +9,7 @@ from app.draw.primitives import Text
 from app.draw.theme import THEMES
 from app.draw.type import measure
 from app.gui.brush import type_
+from app.gui.furniture import throw_away
 from app.gui.look import GRID, type_face
 from app.gui.parts import heading
 from app.gui.session import Session
@@ -37,6 +38,25 @@ class Presenter(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_ShowWithoutActivating)
         self.setMinimumSize(480, 360)
         self.resize(*SIZE)
+        self._since = QElapsedTimer()
+        self._tick = QTimer(self, interval=TICK)
+        self._tick.timeout.connect(self._show_time)
+        self._outside = QVBoxLayout(self)
+        self._outside.setContentsMargins(0, 0, 0, 0)
+        self._build()
+
+    def furnish(self) -> None:
+        """The same on new paper; the clock goes on."""
+        old = self._inside
+        self._build()
+        throw_away((old,))
+        if self.isVisible():
+            self._show_time()
+            self.show_state(self._session.state)
+
+    def _build(self) -> None:
+        self._inside = QWidget()
+        self._outside.addWidget(self._inside)
         self.lesson, self.step = _words(18, QFont.Weight.DemiBold), _words(18)
         self.caption, self.formula = _words(28, QFont.Weight.DemiBold), Formula()
         self.notes, self.following = _words(20), _words(20)
@@ -46,13 +66,10 @@ class Presenter(QWidget):
         self.again.setAccessibleName("Count the time from now")
         self.again.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.again.clicked.connect(self.reset)
-        self._since = QElapsedTimer()
-        self._tick = QTimer(self, interval=TICK)
-        self._tick.timeout.connect(self._show_time)
-        self._build()
+        self._lay_out()
 
-    def _build(self) -> None:
-        column = QVBoxLayout(self)
+    def _lay_out(self) -> None:
+        column = QVBoxLayout(self._inside)
         column.setContentsMargins(4 * GRID, 3 * GRID, 4 * GRID, 3 * GRID)
         column.setSpacing(GRID)
         top, bottom = QHBoxLayout(), QGridLayout()

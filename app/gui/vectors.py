@@ -102,6 +102,11 @@ class Vectors(QWidget):
             self._about = vectors
             self._tell(vectors)
 
+    def inherit(self, before: "Vectors") -> None:
+        """Take over which point is ringed and which pass is chosen."""
+        self.lattice.ring = before.lattice.ring
+        self.passes.setCurrentRow(before.passes.currentRow())
+
     def _tell(self, vectors: VectorSet) -> None:
         k = smoothness(vectors)
         jumps = "jumps" if k < 0 else f"C<sup>{k}</sup>"

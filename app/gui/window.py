@@ -17,9 +17,11 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QHBoxLayout,
     QMainWindow,
+    QMenuBar,
     QMessageBox,
     QSplitter,
     QToolButton,
+    QVBoxLayout,
     QWidget,
 )
 
@@ -35,6 +37,7 @@ from app.gui.details import Details
 from app.gui.document import Document
 from app.gui.editing import EDITS, SHARPNESS, Editing
 from app.gui.export import ExportDialog, Exporter
+from app.gui.furniture import enter_what_is_typed, seat_of, sit_down, throw_away
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
 from app.gui.laboratory import Laboratory
@@ -51,6 +54,7 @@ from app.gui.surface import Surface
 from app.gui.timeline import Timeline, tool_button
 from app.gui.viewport import Viewport
 from app.gui.why import Why
+from app.gui.worker import Worker
 from app.keeping import SUFFIX, named, taken_up
 from app.link import followed, link
 from app.opening import OPENABLE
@@ -83,26 +87,16 @@ class Window(QMainWindow):
         self._theme = ""
         self.actions_by_id = {c.id: self._action(c.id) for c in COMMANDS}
         self.viewport = Viewport(session)
-        self.banner = Banner(session)
-        self.timeline = Timeline(session, self._button)
-        self.contents = Contents(session, lessons.all_lessons())
-        self.contents.found.connect(self.leave_search)
-        self.laboratory = Laboratory(session, self.banner)
-        self.editing = Editing(session, self.banner)
-        self.spectrum = Spectrum(session, self.laboratory.wish)
-        self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
-        self.surface, self.presenter = Surface(session), Presenter(session)
+        self.banner, self.presenter = Banner(session), Presenter(session)
+        self.worker = Worker(session, self.banner)
         self._build()
+        self._put_up()
+        self._splitter.setSizes([LEFT, 10_000, RIGHT])
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
         self.opener = Opener(session, self.banner, self.opened)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
-        self._views = (
-            self.viewport, self.banner, self.timeline, self.contents,
-            self.laboratory, self.editing, self.spectrum, self.knobs, self.shown, self.surface, self.why, self.notes,
-            self.presenter,
-        )  # fmt: skip
         self._restore()
         session.changed.connect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._follow_system)
@@ -355,14 +349,12 @@ class Window(QMainWindow):
 
     def _action(self, id_: str) -> QAction:
         command = BY_ID[id_]
-        action = QAction(command.name, self)
+        action = QAction(self)
         action.setShortcuts([QKeySequence(key) for key in command.keys])
         action.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)
         action.setAutoRepeat(command.repeats)
         action.setIconVisibleInMenu(False)
         action.setCheckable(command.on is not None)
-        keys = ", ".join(spelled_keys(command))
-        action.setToolTip(f"{command.name} ({keys})" if keys else command.name)
         action.triggered.connect(lambda: command.does(self))
         self.addAction(action)
         return action
@@ -375,21 +367,75 @@ class Window(QMainWindow):
         return button
 
     def _build(self) -> None:
+        """What stays while the window stays: the picture, and places for the furniture round it."""
         self._is_presenting, self._wants_details = False, True
         self._hairlines: list[QWidget] = []
-        middle = column(self.banner, self.viewport, self._hairline(), self.timeline, stretched=self.viewport)
-        self.details = self._details()
-        self._sides = {"contents": self.contents, "details": self.details}
+        self._foot = QWidget()
+        self._under = QVBoxLayout(self._foot)
+        self._under.setContentsMargins(0, 0, 0, 0)
+        middle = column(self.banner, self.viewport, self._hairline(), self._foot, stretched=self.viewport)
         self._splitter = QSplitter(Qt.Orientation.Horizontal)
         self._splitter.setHandleWidth(1)
-        for part in (self._sides["contents"], middle, self._sides["details"]):
+        for part in (QWidget(), middle, QWidget()):
             self._splitter.addWidget(part)
         self._splitter.setStretchFactor(1, 1)
         self._splitter.setCollapsible(1, False)
-        self._splitter.setSizes([LEFT, 10_000, RIGHT])
         self._body = column(self._hairline(), self._splitter, stretched=self._splitter)
         self.setCentralWidget(self._body)
+
+    def furnish(self) -> None:
+        """Change the furniture for new, for other words or another size; everything else is as it was."""
+        places = self._places()
+        seat = seat_of(places, QApplication.focusWidget())
+        if seat is not None:
+            enter_what_is_typed()
+        before = self.contents, self.details, self.laboratory
+        is_bare = self.timeline.isHidden(), self.menuBar().isHidden()
+        throw_away(self._put_up())
+        for lasting in (self.banner, self.presenter, self.viewport.narration):
+            lasting.furnish()
+        for part, is_hidden in zip((self.timeline, self.menuBar()), is_bare, strict=True):
+            part.setHidden(is_hidden)
+        self.show_state(self.session.state)
+        for part, old in zip((self.contents, self.details, self.laboratory), before, strict=True):
+            part.inherit(old)  # type: ignore[attr-defined]
+        for sheet in self.sheets:
+            sheet.update()
+        sit_down(self._places(), seat)
+
+    def _places(self) -> dict[str, QWidget]:
+        """Everything that is made anew, piece by piece."""
+        return {**self._sides, "foot": self._foot, "banner": self.banner, "presenter": self.presenter}
+
+    def _put_up(self) -> list[QWidget]:
+        """Make the panels, the timeline and the menus; the panels that were there before."""
+        session = self.session
+        self._name_actions()
+        self.timeline = Timeline(session, self._button)
+        self.contents = Contents(session, lessons.all_lessons())
+        self.contents.found.connect(self.leave_search)
+        self.laboratory = Laboratory(session, self.banner, self.worker)
+        self.editing = Editing(session, self.banner)
+        self.spectrum = Spectrum(session, self.laboratory.wish)
+        self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
+        self.surface = Surface(session)
+        self.details = self._details()
+        self._views = (
+            self.viewport, self.banner, self.timeline, self.contents,
+            self.laboratory, self.editing, self.spectrum, self.knobs, self.shown, self.surface, self.why, self.notes,
+            self.presenter,
+        )  # fmt: skip
+        self._sides = {"contents": self.contents, "details": self.details}
+        old: list[QWidget] = self._foot.findChildren(Timeline)
+        for k, side in zip((0, 2), self._sides.values(), strict=True):
+            old += [each for each in (self._splitter.replaceWidget(k, side),) if each is not None]
+        self._under.addWidget(self.timeline)
+        self.setMenuBar(QMenuBar())
         menus.fill(self)
+        self._put_up_corner()
+        return old
+
+    def _put_up_corner(self) -> None:
         corner = QWidget(self.menuBar())
         row = QHBoxLayout(corner)
         row.setContentsMargins(0, 0, GRID // 2, 0)
@@ -397,6 +443,13 @@ class Window(QMainWindow):
         for id_ in ("contents", "shown", "present"):
             row.addWidget(self._button(id_, 28))
         self.menuBar().setCornerWidget(corner)
+
+    def _name_actions(self) -> None:
+        for id_, action in self.actions_by_id.items():
+            command = BY_ID[id_]
+            keys = ", ".join(spelled_keys(command))
+            action.setText(command.name)
+            action.setToolTip(f"{command.name} ({keys})" if keys else command.name)
 
     def _details(self) -> Details:
         why = Section("Why is it here?", self.why, stretched=self.why)
