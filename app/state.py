@@ -15,12 +15,16 @@ import numpy as np
 
 from app.lab import LABORATORY, Lab
 from app.turn import REST, Turn
+from lessons import all_lessons
 from lessons.script import Beat, Lesson, View
 from subdivision import Topology, Trace
 from subdivision.catalogue import Vectors
 
 Edits: TypeAlias = tuple[tuple[int, tuple[float, float, float]], ...]
 """Control points that were dragged: (vertex, where to), one entry a vertex."""
+
+Prediction: TypeAlias = tuple[float, float, float] | int
+"""A place where somebody thinks a point will go, or the number (from 0) of the answer that was chosen."""
 
 VALENCES = range(3, 13)
 """Those that are analysed."""
@@ -79,8 +83,12 @@ class Options:
     as_caption: bool = False
     across: str = "step"
     theme: str = "light"
+    language: str = "en"
+    """That of the words on the picture and round it."""
     speed: float = 1.0
     through: bool = False
+    asking: bool = False
+    """Lessons rest at their questions, before they show the answers."""
     reduced_motion: bool = False
     """Stages fade into one another instead of moving."""
     presenting: bool = False
@@ -122,6 +130,7 @@ class State:
 
     ``goal`` is where playing will rest; None while it rests.  ``wait`` is how many stages' time a
     still is shown before playing through goes on.  ``turn`` is what the hand has done to the beat's camera.
+    ``predicted`` is what the class has said to the question that is asked, or has just been answered.
     """
 
     lesson: Lesson
@@ -134,6 +143,7 @@ class State:
     lab: Lab | None = None
     picked: Picked | None = None
     turn: Turn = REST
+    predicted: tuple[Prediction, ...] = ()
     options: Options = field(default_factory=Options)
 
     @property
@@ -210,6 +220,12 @@ def axis_of(state: State) -> float:
     return mine[-1].end
 
 
+def question_at(state: State) -> int | None:
+    """The number of the beat that asks what is asked now, or what this beat answers; None: there is no question."""
+    beats, b = state.lesson.beats, state.beat
+    return next((k for k in (b, b - 1) if k >= 0 and beats[k].asks is not None), None)
+
+
 def valence_of(state: State) -> int:
     """The valence that is analysed: of the inner vertex pointed at, else the one chosen, else the object's own.
 
@@ -258,11 +274,14 @@ def _level(trace: Trace, at: float) -> tuple[int, bool]:
 
 def start(lesson: Lesson, options: Options | None = None) -> State:
     """The lesson at its first stop."""
-    return at_stop(State(lesson, options=options or Options()), stops(lesson)[0])
+    options = options or Options()
+    told = lesson.asking(options.asking)
+    return at_stop(State(told, options=options), stops(told)[0])
 
 
 def open_lesson(state: State, lesson: Lesson, step: int = 0) -> State:
     """Another lesson at its stop number ``step`` (from 0), same options."""
+    lesson = lesson.asking(state.options.asking)
     places = stops(lesson)
     return at_stop(state, places[min(max(step, 0), len(places) - 1)], lesson=lesson, edits=(), picked=None)
 
@@ -276,6 +295,8 @@ def _moved(state: State, **changes: Any) -> State:
     """The state at another place; another lesson, or another camera of it, is seen as it is meant to be."""
     there = replace(state, **changes)
     there = replace(there, focus=_held(state, there)) if there.focus is None else there
+    is_same_question = there.lesson is state.lesson and question_at(there) == question_at(state)
+    there = there if is_same_question else replace(there, predicted=())
     is_same_view = there.lesson.id == state.lesson.id and there.now.look == state.now.look
     return there if is_same_view else replace(there, turn=REST)
 
@@ -324,6 +345,31 @@ def back(state: State) -> State:
     return at_stop(state, earlier[-1]) if state.now.is_still else replace(state, goal=earlier[-1])
 
 
+def onward(state: State) -> State:
+    """Play to the next stop; from the last one of a lesson, to the next lesson."""
+    there = forward(state)
+    return there if _has_gone(state, there) else _neighbour(there, 1)
+
+
+def homeward(state: State) -> State:
+    """Play back to the stop before; from the first one of a lesson, to the end of the lesson before."""
+    there = back(state)
+    if _has_gone(state, there) or (before := _neighbour(there, -1)) is there:
+        return there
+    return last(before)
+
+
+def _has_gone(state: State, there: State) -> bool:
+    return (there.beat, there.at, there.goal) != (state.beat, state.at, state.goal)
+
+
+def _neighbour(state: State, by: int) -> State:
+    """The lesson ``by`` places on in the lecture; the same state where there is none."""
+    every = all_lessons()
+    here = next((k for k, lesson in enumerate(every) if lesson.id == state.lesson.id), len(every))
+    return open_lesson(state, every[here + by]) if 0 <= here + by < len(every) and here < len(every) else state
+
+
 def skip(state: State, by: int) -> State:
     """``by`` stops on or back, without playing."""
     state, places = settle(state), stops(state.lesson)
@@ -360,10 +406,8 @@ def toggle_play(state: State) -> State:
     """Pause, or play to the next stop; at the end of the lesson, from its beginning."""
     if state.is_playing:
         return rest(state)
-    onward = forward(state)
-    return (
-        onward if (onward.beat, onward.at, onward.goal) != (state.beat, state.at, state.goal) else forward(first(state))
-    )
+    there = forward(state)
+    return there if _has_gone(state, there) else forward(first(state))
 
 
 def tick(state: State, stages: float) -> State:

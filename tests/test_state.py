@@ -4,8 +4,10 @@ import pytest
 
 import lessons
 from app import state as st
+from app.lab import lab_of, lesson_of
 from app.state import Stop
 from app.turn import REST
+from subdivision import shapes
 
 CUBE = lessons.find("14")
 
@@ -85,6 +87,19 @@ def test_the_ends_of_a_lesson_hold():
     assert where(st.back(state)) == where(state)
     assert where(st.forward(st.last(state))) == where(st.last(state))
     assert where(st.first(st.last(state))) == where(state)
+
+
+def test_a_clicker_goes_through_the_whole_lecture_and_all_the_way_back():
+    every = lessons.all_lessons()
+    places = [(lesson.id, stop) for lesson in every for stop in st.stops(lesson)]
+    state = st.start(every[0])
+    for way, rest in ((st.onward, places[1:]), (st.homeward, places[-2::-1])):
+        for place in rest:
+            state = st.settle(way(state))
+            assert (state.lesson.id, Stop(state.beat, state.at)) == place
+        assert where(way(state)) == where(state)
+    alone = st.last(st.start(lesson_of(lab_of(shapes.cube(), "cube"))))
+    assert where(st.onward(alone)) == where(alone)
 
 
 def test_another_camera_and_another_lesson_are_seen_as_they_are_meant_to_be():

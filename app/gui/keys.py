@@ -17,11 +17,11 @@ from app.gui.timeline import SPEEDS, next_speed, spoken_speed
 from app.state import (
     Options,
     State,
-    back,
     choose,
     first,
-    forward,
+    homeward,
     last,
+    onward,
     skip,
     toggle,
     toggle_play,
@@ -91,8 +91,8 @@ def held_speed(speed: float, by: int) -> float:
 
 
 COMMANDS = (
-    Command("forward", "Next stage", "Lesson", ("PgDown", "Right"), _wish(forward), icon="forward", repeats=True),
-    Command("back", "Previous stage", "Lesson", ("PgUp", "Left"), _wish(back), icon="back", repeats=True),
+    Command("forward", "Next stage", "Lesson", ("PgDown", "Right"), _wish(onward), icon="forward", repeats=True),
+    Command("back", "Previous stage", "Lesson", ("PgUp", "Left"), _wish(homeward), icon="back", repeats=True),
     Command("play", "Play or pause", "Lesson", ("Space",), _wish(toggle_play), icon="play"),
     Command("level_up", "Next level", "Lesson", ("]", "Up"), _wish(turn_level, 1), icon="level-up"),
     Command("level_down", "Previous level", "Lesson", ("[", "Down"), _wish(turn_level, -1), icon="level-down"),

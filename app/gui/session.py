@@ -8,6 +8,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 
 from app.bench import pull
 from app.boxlab import move_pass, move_vector
+from app.report import Recent
 from app.state import State, drag, look, seek, settle, tick, turn_view
 
 STAGE = 0.8
@@ -38,6 +39,7 @@ class Session(QObject):
         self.state = state
         self._past: list[State] = []
         self._future: list[State] = []
+        self.recent = Recent()
         self._gesture: Transition | None = None
         self._clock = QElapsedTimer()
         self._timer = QTimer(self, interval=FRAME, timerType=Qt.TimerType.PreciseTimer)
@@ -53,6 +55,7 @@ class Session(QObject):
 
     def do(self, transition: Transition, *args: Any, **options: Any) -> None:
         """Apply a transition of ``app.state``, remember what was before, and tell everybody."""
+        self.recent.add(transition)
         before, after = self.state, transition(self.state, *args, **options)
         if _parts(before) == _parts(after):
             return
