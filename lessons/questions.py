@@ -22,7 +22,7 @@ MOST = 4
 
 @dataclass(frozen=True, eq=False)
 class Where:
-    """Where will point number ``point`` be when the beat is over, in its pane number ``pane``?"""
+    """Asks where point number ``point`` will be when the beat is over, in its pane number ``pane``."""
 
     text: str
     point: int
@@ -38,7 +38,7 @@ class Where:
 
 @dataclass(frozen=True, eq=False)
 class Weight:
-    """How much of ``parent`` is in the point of a ``row``?  ``options`` has the weight and wrong ones, the least first."""
+    """Asks for the weight of ``parent`` in a ``row``; ``options`` has it and wrong ones, the least first."""
 
     text: str
     row: Stencil
@@ -52,7 +52,7 @@ class Weight:
 
 @dataclass(frozen=True, eq=False)
 class Which:
-    """Which of some ``panes`` is what the beat comes to?"""
+    """Asks which of some ``panes`` the beat comes to."""
 
     text: str
     panes: "tuple[View, ...]"

@@ -150,6 +150,9 @@ class Beat:
         return 1.0 if self.is_still else (at - self.start) / (self.stop - self.start)
 
 
+OWN = "Own lessons"
+"""The heading of lessons that name no section."""
+
 Script = Callable[..., Iterator[Beat]]
 
 Meaning: TypeAlias = Role | str
@@ -235,7 +238,7 @@ class Lesson:
 def lesson(
     title: str,
     *,
-    section: str,
+    section: str = OWN,
     ours: str = "",
     colours: Mapping[Meaning, str] | None = None,
     knobs: Mapping[str, range] | None = None,
@@ -352,7 +355,7 @@ def question_of(beat: Beat) -> Beat:
 
 
 def _before(view: View, is_still: bool) -> View:
-    """A view as it stands before its beat, its stencil veiled but still seen by the camera; of a still, just the mesh."""
+    """A view as it stands before its beat, its stencil veiled but minded by the camera; of a still, just the mesh."""
     over = None if is_still or view.over is None else _before(view.over, is_still)
     span = view.span - int(view.stop - view.start)
     return replace(view, stop=view.start, span=span, veiled=True, over=over, reading=None if is_still else view.reading)

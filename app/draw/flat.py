@@ -33,6 +33,9 @@ class Polygon:
 
 Part: TypeAlias = Disc | Ring | Polygon
 
+CROSS_HAIRS = ((-1.8, -0.17, -1.0, 0.17), (1.0, -0.17, 1.8, 0.17), (-0.17, -1.8, 0.17, -1.0), (-0.17, 1.0, 0.17, 1.8))
+"""Left, top, right and bottom of each."""
+
 FLAT: Mapping[Shape, tuple[Part, ...]] = MappingProxyType(
     {
         Shape.SPHERE: (Disc(1.0),),
@@ -40,6 +43,10 @@ FLAT: Mapping[Shape, tuple[Part, ...]] = MappingProxyType(
         Shape.CUBE: (Polygon(((0.9, 0.9), (-0.9, 0.9), (-0.9, -0.9), (0.9, -0.9))),),
         Shape.BEAD: (Disc(0.7), Ring(1.3, 0.25)),
         Shape.CLEAR: (Polygon(((1.6, 0.0), (0.0, 1.6), (-1.6, 0.0), (0.0, -1.6)), 0.26),),
+        Shape.AIM: (
+            Ring(1.0, 0.34),
+            *(Polygon(((x0, y0), (x1, y0), (x1, y1), (x0, y1))) for x0, y0, x1, y1 in CROSS_HAIRS),
+        ),
         Shape.HALO: (Disc(0.85), Ring(1.45, 0.3)),
     }
 )

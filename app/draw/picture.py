@@ -28,6 +28,8 @@ class Shape(Enum):
     """A sphere with a halo round it: a point that has moved."""
     CLEAR = "clear"
     """An unfilled diamond: the point a stencil makes.  Flat pictures only."""
+    AIM = "aim"
+    """A ring with cross-hairs: where somebody thinks a point will go.  Flat pictures only."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +91,16 @@ class Label:
 
 
 @dataclass(frozen=True, eq=False)
+class Pin:
+    """A flat mark over all that is in space, at a place of it; a thin line ties it to another place, if there is one."""
+
+    at: Floats
+    shape: Shape
+    colour: Colour
+    to: Floats | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class Camera:
     """A view of space: ``position``, ``focal`` point and ``up`` (3,); ``angle`` in degrees from top to bottom.
 
@@ -145,6 +157,7 @@ class Scene:
     lines: tuple[Lines, ...] = ()
     markers: tuple[Markers, ...] = ()
     labels: tuple[Label, ...] = ()
+    pins: tuple[Pin, ...] = ()
     bar: Bar | None = None
     remark: str = ""
 
@@ -155,7 +168,7 @@ class Box:
 
     ``texts`` says the same ever more tersely, with mathematics between dollars: the first that has room is shown,
     the same one in all boxes of a ``group``; where none has, the box stays empty.
-    ``point`` and ``stage`` tell which point of the trace it is, after how many stages.
+    ``point`` and ``stage`` tell which point of the trace it is, after how many stages; ``choice`` which answer.
     """
 
     x: float
@@ -171,6 +184,7 @@ class Box:
     stage: int = -1
     group: int = 0
     line: float = 2.0
+    choice: int = -1
 
 
 @dataclass(frozen=True)
@@ -236,13 +250,14 @@ class Diagram:
 class Pane:
     """A part of the picture, in fractions of it from the upper left: x, y, width, height.
 
-    ``title`` stands above it, ``reading`` (a measurement) below.
+    ``title`` stands above it, ``reading`` (a measurement) below; ``frame`` is the colour of a frame round it.
     """
 
     content: Scene | Diagram
     rect: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
     title: str = ""
     reading: str = ""
+    frame: Colour | None = None
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,7 @@ def _outlined(faces: Faces, theme: Theme) -> Lines:
 
 
 def _with_markers(scene: Scene, control: Mesh, numbers: Indices, theme: Theme, size: float) -> Scene:
-    radius = np.full(len(numbers), size * _radius(scene, control))
+    radius = np.full(len(numbers), size * radius_of(scene, control))
     none = np.full(len(numbers), -1)
     halo = Markers(
         control.points[numbers], Shape.HALO, theme.selection, radius, np.ones(len(numbers)), none, PICKED
@@ -90,12 +90,12 @@ def _with_place(scene: Scene, control: Mesh, picked: Picked, theme: Theme) -> Sc
     if not isinstance(control.topology, Polyline):
         return scene
     a, b = control.points[control.topology.ends[picked.numbers[-1]]]
-    at, radius = (1 - picked.along) * a + picked.along * b, np.array([_radius(scene, control)])
+    at, radius = (1 - picked.along) * a + picked.along * b, np.array([radius_of(scene, control)])
     dot = Markers(at[None], Shape.SPHERE, theme.selection, radius, np.ones(1), np.full(1, -1), PICKED)
     return replace(scene, markers=(*scene.markers, dot))
 
 
-def _radius(scene: Scene, control: Mesh) -> float:
+def radius_of(scene: Scene, control: Mesh) -> float:
     """As large as the markers that are there."""
     found = [float(m.radius.max()) for m in scene.markers if len(m.radius)]
     return max(found, default=AMID * float(np.linalg.norm(np.ptp(control.points, axis=0))) / 2)

@@ -4,6 +4,8 @@ The plane is the trace's control object seen from above, one cell to an edge of 
 read from the engine's row.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from app.draw.picture import Diagram, Dot, Entry, Link, Pane, Scene, Shape
@@ -29,15 +31,18 @@ ASIDE = 1e-3
 """How little it counts, beside the room, that words stand to the right and rather below than above."""
 
 
-def stencil(trace: Trace, row: Pointed, theme: Theme) -> Diagram:
-    """A row as a flat picture: the mesh's edges among the contributors, each with its weight; and the new point."""
+def stencil(trace: Trace, row: Pointed, theme: Theme, words: Sequence[str] | None = None) -> Diagram:
+    """A row as a flat picture: the mesh's edges among the contributors, each with its weight; and the new point.
+
+    ``words`` stand in the place of the weights.
+    """
     ink, begin = theme.roles[Role.ORIGINAL], row.stage - row.span
     links = _edges(trace, row)
     places = _places(trace, row, links)
     ways = [_way(places, links, k) for k in range(len(places))]
     dots = [
         Dot(float(x), float(y), Shape.SPHERE, DISC, ink, int(p), begin, text, way)
-        for p, (x, y), text, way in zip(row.stencil.parents, places, spelled(row.stencil), ways, strict=True)
+        for p, (x, y), text, way in zip(row.stencil.parents, places, words or spelled(row.stencil), ways, strict=True)
     ]
     dots.append(Dot(0.0, 0.0, Shape.CLEAR, DIAMOND, ink, row.stencil.point, row.stage))
     strokes = tuple(_link(places[a], places[b], theme) for a, b in links)

@@ -74,6 +74,8 @@ class Theme:
     net: Colour
     faint: Colour
     selection: Colour
+    guess: Colour
+    """What was predicted."""
     roles: Mapping[Role, Colour]
     stroke: float = 1.0
     type: float = 1.0
@@ -94,6 +96,7 @@ LIGHT = Theme(
     net=rgb("#8A837A"),
     faint=rgb("#C9C3B9"),
     selection=rgb("#A8467C"),
+    guess=rgb("#5B0F8B"),
     roles={
         Role.ORIGINAL: rgb("#111111"),
         Role.EDGE: ORANGE,
@@ -115,6 +118,7 @@ DARK = Theme(
     net=rgb("#8B919B"),
     faint=rgb("#4B5058"),
     selection=PURPLE,
+    guess=rgb("#9A4DFF"),
     roles={
         Role.ORIGINAL: rgb("#FFFFFF"), Role.EDGE: ORANGE, Role.FACE: rgb("#E65F37"),
         Role.CENTROID: rgb("#25D699"), Role.MOVED: rgb("#5CA3ED"),
@@ -134,6 +138,7 @@ PROJECTOR = Theme(
     net=rgb("#444444"),
     faint=rgb("#BBBBBB"),
     selection=rgb("#9B3A70"),
+    guess=rgb("#4B0082"),
     roles=LIGHT.roles,
     stroke=1.5,
     type=1.15,
