@@ -127,14 +127,21 @@ class Kernel:
         )
 
 
-def quads(t: Topology, reach: Reach) -> Kernel:
-    """The step that splits every face into quads; half of a ring are neighbours, half the points of faces around."""
-    return _kernel(t, 4, _reached(t, reach) / 2, 2)
+@dataclass(frozen=True)
+class Rule:
+    """A scheme, as far as speed is concerned: how many corners the faces have that it makes, and its reach."""
 
+    size: int
+    reach: Reach
 
-def triangles(t: Topology, reach: Reach) -> Kernel:
-    """The step that splits every triangle into four; the ring of a vertex is its neighbours."""
-    return _kernel(t, 3, _reached(t, reach), 1)
+    def kernel(self, t: Topology) -> Kernel:
+        """One step on ``t``.
+
+        Half of the ring of a quad mesh are neighbours, half the points of faces around; of a triangle mesh all
+        are neighbours.
+        """
+        brought = 2 if self.size == 4 else 1
+        return _kernel(t, self.size, _reached(t, self.reach) / brought, brought)
 
 
 def is_smooth(t: Topology) -> bool:

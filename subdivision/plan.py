@@ -5,15 +5,14 @@ kind of face makes it at once; a small mesh has one table for everything.  Schem
 no kernel are told in stages, which all of this is tested against.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 
-from subdivision import kernels, refine
+from subdivision import refine
 from subdivision.arrays import Floats, Indices, frozen
-from subdivision.kernels import Kernel, Rows, assembled
+from subdivision.kernels import Kernel, Rows, Rule, assembled
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
@@ -96,29 +95,29 @@ def plan(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
 def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     """The same plan, quicker to make and, of small meshes, slower to apply."""
     scheme.require(t)
-    make = _kernels(t, scheme)
-    if make is None or not isinstance(t, Topology) or scheme.refinement is None:
+    rule = _rule(t, scheme)
+    if rule is None or not isinstance(t, Topology) or scheme.refinement is None:
         return _staged(t, scheme, levels)
     fine = scheme.refinement.faces(t, levels) if levels else 0
     steps: list[Kernel] = []
     while len(steps) < levels:
         depth = levels - len(steps)
         if steps and 1 < depth <= DEEPEST and fine > WORTH_TABLES:
-            deep = tables(t, depth, make, at_most=min(t.n_faces // FACES_A_KIND, fine // FINE_FACES_A_KIND))
+            deep = tables(t, depth, rule, at_most=min(t.n_faces // FACES_A_KIND, fine // FINE_FACES_A_KIND))
             if deep:
                 return Plan(_renumbered(deep), (*steps, deep))
-        steps.append(make(t))
+        steps.append(rule.kernel(t))
         t = steps[-1].refined()
     return Plan(t, tuple(steps))
 
 
-def _kernels(t: Connectivity, scheme: Scheme) -> Callable[[Topology], Kernel] | None:
-    """How to make the kernels of ``scheme``, if it has any for this mesh."""
+def _rule(t: Connectivity, scheme: Scheme) -> Rule | None:
+    """What makes the kernels of ``scheme``, if it has any for this mesh."""
     if scheme.reach is None or scheme.refinement is None or not isinstance(t, Topology):
         return None
     if (t.edge_sharpness[t.boundary] < INFINITELY_SHARP).any():
         return None
-    return partial(kernels.quads if scheme.refinement is refine.QUADS else kernels.triangles, reach=scheme.reach)
+    return Rule(scheme.refinement.size, scheme.reach)
 
 
 def _staged(t: Connectivity, scheme: Scheme, levels: int) -> Plan:

@@ -90,6 +90,11 @@ class Kind:
     fans: tuple[Fan, ...]
 
     @property
+    def is_smooth(self) -> bool:
+        """Whether nothing is sharp, so that only the numbers of faces matter."""
+        return all(fan.closed and not fan.sharpness and not fan.pinned for fan in self.fans)
+
+    @property
     def ring(self) -> Ring:
         """What is round a face of this kind; sharpness makes no difference."""
         return ring(tuple((fan.left, fan.right, fan.closed) for fan in self.fans))

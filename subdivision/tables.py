@@ -9,7 +9,6 @@ kind, the points inside each patch and on the edges it owns.  Faces and half-edg
 numbers the stages give them.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -17,15 +16,16 @@ import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, taken
-from subdivision.kernels import Kernel
+from subdivision.kernels import Rule
 from subdivision.rings import Kind, sorted_faces, unfolded, with_ring
 from subdivision.topology import Topology
 
 AT_ONCE = 2048
 """How many faces are gathered at a time: what they read then stays in the cache."""
 
-Kernels = Callable[[Topology], Kernel]
-
+_remembered: dict[tuple[Kind, int, Rule], Floats] = {}
+"""Tables of smooth kinds, which other meshes have, too."""
+REMEMBERED_AT_MOST = 256
 
 @dataclass(frozen=True, eq=False)
 class Template:
@@ -196,7 +196,7 @@ class Tables:
         return origin.reshape(-1)
 
 
-def tables(t: Topology, depth: int, kernels: Kernels, at_most: int) -> Tables | None:
+def tables(t: Topology, depth: int, rule: Rule, at_most: int) -> Tables | None:
     """Tables for a mesh that is itself the outcome of a step; None where it has too many kinds of faces."""
     F, H, V = t.n_faces, t.n_halfedges, t.n_vertices
     k = H // F
@@ -233,7 +233,7 @@ def tables(t: Topology, depth: int, kernels: Kernels, at_most: int) -> Tables | 
         :, None
     ] * np.arange(k)
     patches = []
-    for i, (around, table) in enumerate(zip(found.rings(t), _tables(found.kinds, depth, kernels), strict=True)):
+    for i, (around, table) in enumerate(zip(found.rings(t), _tables(found.kinds, depth, rule), strict=True)):
         patches.append(Patches(
             ring=around,
             table=table[np.concatenate([inside, *sides[: owns[i]]])],
@@ -253,8 +253,23 @@ def _share(twin: Indices, begin: Indices, step: Indices, on_side: int) -> None:
     step[bare] = -step[twin[bare]]
 
 
-def _tables(kinds: tuple[Kind, ...], depth: int, kernels: Kernels) -> list[Floats]:
-    """(n_points, n_vertices) float for each kind: the points of the template from those of the ring."""
+def _tables(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
+    """(n_points, n_vertices) float for each kind: the points of the template from those of the ring.
+
+    What is smooth is remembered for other meshes; there is not much of it.
+    """
+    known = {kind: _remembered[kind, depth, rule] for kind in kinds if (kind, depth, rule) in _remembered}
+    missing = tuple(kind for kind in dict.fromkeys(kinds) if kind not in known)
+    if missing:
+        known |= zip(missing, _computed(missing, depth, rule), strict=True)
+        if len(_remembered) > REMEMBERED_AT_MOST:
+            _remembered.clear()
+        _remembered.update({(kind, depth, rule): known[kind] for kind in missing if kind.is_smooth})
+    return [known[kind] for kind in kinds]
+
+
+def _computed(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
+    """The same, computed."""
     k = len(kinds[0].fans)
     t, number = unfolded(kinds)
     points = np.eye(int(number.max()) + 1)[number]
@@ -263,7 +278,7 @@ def _tables(kinds: tuple[Kind, ...], depth: int, kernels: Kernels) -> list[Float
         if level:
             t, kept, ours = with_ring(t, ours)
             points = points[kept]
-        step = kernels(t)
+        step = rule.kernel(t)
         points, ours = step.apply(points), ours[t.face] if k == 4 else np.concatenate([ours[t.face], ours])
         t = step.refined()
     first, each = descendants(k, len(kinds), depth)

@@ -71,9 +71,11 @@ class Session(QObject):
         self._gesture = None
 
     def undo(self) -> None:
+        self.recent.add(self.undo)
         self._travel(self._past, self._future)
 
     def redo(self) -> None:
+        self.recent.add(self.redo)
         self._travel(self._future, self._past)
 
     def stop(self) -> None:

@@ -58,6 +58,7 @@ from app.gui.worker import Worker
 from app.keeping import SUFFIX, named, taken_up
 from app.link import followed, link
 from app.opening import OPENABLE
+from app.report import apart
 from app.state import State, choose, pick
 from app.strict import KeepingError
 
@@ -109,7 +110,8 @@ class Window(QMainWindow):
         if state.options.theme != self._theme:
             self._dress(state.options.theme)
         for view in self._views:
-            view.show_state(state)
+            with apart():  # a panel that fails keeps no other from showing the state
+                view.show_state(state)
         for id_, action in self.actions_by_id.items():
             if (on := BY_ID[id_].on) is not None:
                 action.setChecked(on(state.options))

@@ -108,8 +108,8 @@ class _Job(QRunnable):
             self.told.failed.emit(self, str(fault))
         except MemoryError:
             self.told.failed.emit(self, self.too_large)
-        except Exception:
-            LOG.exception("%s", self.broken)
+        except Exception as fault:
+            sys.excepthook(type(fault), fault, fault.__traceback__)
             self.told.failed.emit(self, self.broken)
         finally:
             self.told.over.emit(self)
