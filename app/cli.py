@@ -4,6 +4,7 @@ import argparse
 import json
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from itertools import groupby
 from pathlib import Path
@@ -13,6 +14,7 @@ import lessons
 from app.draw.theme import THEMES
 from app.figures import BACKGROUNDS, FORMATS, LEAST, MOST, FigureError
 from app.state import State
+from lessons import own
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, Scheme, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
@@ -38,6 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     chosen = commands[arguments.pop(0)] if arguments and arguments[0] in commands else parser
     options = chosen.parse_args(arguments)
     try:
+        _bring(options)
         return int(options.run(options) or 0)
     except (TopologyError, files.FileError, Fault) as fault:
         print(f"subdivision-studio: {fault}", file=sys.stderr)
@@ -64,6 +67,40 @@ def _bug() -> int:
 
 class Fault(Exception):
     """What went wrong, in a sentence for the user."""
+
+
+def _bring(options: argparse.Namespace) -> None:
+    """Have the lessons of the folder that is named with ``--lessons``; what is wrong with some of them is said."""
+    folder: Path | None = getattr(options, "own", None)
+    if folder is None:
+        return
+    from app import shelf
+
+    place = shelf.usual_place()
+    kept = shelf.remembered(place)
+    try:
+        if not (options.trust or kept.is_agreed(folder) or options.run is open_window):
+            raise Fault(
+                phrase(
+                    "lessons are programs, and those in {folder} have not been agreed to; read them, then add --trust",
+                    folder=folder,
+                )
+            )
+        if options.trust or kept.is_agreed(folder):
+            found = shelf.opened(folder, kept, _warn, shelf.tried_now)
+            lessons.bring(each for those in found.found.values() for each in those)
+            for fault in found.faults:
+                _warn(fault)
+            with suppress(OSError):  # then they are tried again next time
+                shelf.remember(place, found.shelf)
+        elif not folder.is_dir():
+            raise Fault(shelf.no_folder(folder))
+    except OSError as fault:
+        raise Fault(shelf.no_folder(folder)) from fault
+
+
+def _warn(fault: own.Fault) -> None:
+    print(f"subdivision-studio: {fault.sentence}", file=sys.stderr)
 
 
 def open_window(options: argparse.Namespace) -> int:
@@ -282,6 +319,7 @@ def _command(name: str, text: str, build: Callable[[argparse.ArgumentParser], No
 
 def _for_lessons(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="as JSON")
+    _from_elsewhere(parser)
     parser.set_defaults(run=list_lessons)
 
 
@@ -334,12 +372,20 @@ def _for_page(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=write_page)
 
 
+def _from_elsewhere(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--lessons", type=Path, dest="own", metavar="DIR", help="also the lessons in this folder")
+    parser.add_argument(
+        "--trust", action="store_true", help="... which are programs: run them without having agreed in the window"
+    )
+
+
 def _looks(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--theme", choices=list(THEMES), default="")
     _colours_and_knobs(parser)
 
 
 def _colours_and_knobs(parser: argparse.ArgumentParser) -> None:
+    _from_elsewhere(parser)
     parser.add_argument("--as-caption", action="store_true", help="colours as in the lecture's own captions")
     parser.add_argument(
         "--set", type=_setting, action="append", default=[], metavar="NAME=VALUE",
