@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QSizePolicy, QToolButton, QWidget
 
 from app.draw.pointed import ACROSS
-from app.gui.look import type_face
+from app.gui.look import px, sized, type_face
 from app.gui.session import Session
 from app.state import State, choose
 
@@ -27,9 +27,9 @@ class Across(QWidget):
             button = QToolButton()
             button.setText(NAMES[across])
             button.setFont(type_face(12))
-            button.setStyleSheet("padding: 2px 0")
+            button.setStyleSheet(sized("padding: 2px 0"))
             button.setCheckable(True)
-            button.setFixedHeight(28)
+            button.setFixedHeight(px(28))
             button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             button.setAccessibleName(f"Weights across {meaning}")

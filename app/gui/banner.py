@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QS
 
 from app.draw.theme import THEMES, mixed
 from app.gui.furniture import throw_away
-from app.gui.look import GRID, chosen_of, colour, icon
+from app.gui.look import GRID, chosen_of, colour, icon, px
 from app.gui.session import Session
 from app.gui.timeline import tool_button
 from app.state import State
@@ -34,7 +34,7 @@ class Banner(QWidget):
         self.words.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self._busy = QProgressBar(minimum=0, maximum=0, textVisible=False)
-        self._busy.setFixedWidth(96)
+        self._busy.setFixedWidth(px(96))
         self._cancel = QPushButton("Cancel")
         self._cancel.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self._cancel.clicked.connect(self._cancelled)
@@ -45,8 +45,8 @@ class Banner(QWidget):
         self._close.setToolTip("Close this message (Esc)")
         self._close.setAccessibleName("Close this message")
         self._close.clicked.connect(self.hide)
-        self._row.setContentsMargins(2 * GRID, GRID, GRID, GRID)
-        self._row.setSpacing(2 * GRID)
+        self._row.setContentsMargins(px(2 * GRID), px(GRID), px(GRID), px(GRID))
+        self._row.setSpacing(px(2 * GRID))
         for each in self._parts():
             self._row.addWidget(each)
 
@@ -131,5 +131,5 @@ class Banner(QWidget):
         painter = QPainter(self)
         ground = mixed(theme.panel, vermilion, 0.16) if self._is_fault else chosen_of(theme)
         painter.fillRect(self.rect(), colour(ground))
-        painter.fillRect(0, 0, 4, self.height(), colour(vermilion if self._is_fault else theme.accent))
+        painter.fillRect(0, 0, px(4), self.height(), colour(vermilion if self._is_fault else theme.accent))
         painter.end()

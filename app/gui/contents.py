@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent, QPainter, QStandardItem, QStandardItemModel
+from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent, QPainter, QPen, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import (
     QLineEdit,
     QListView,
@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 from app.bench import enter
 from app.draw.theme import THEMES
 from app.gui.furniture import scroll_alike
-from app.gui.look import GRID, chosen_of, colour, icon, tint_of, type_face
+from app.gui.look import GRID, chosen_of, colour, fine, icon, px, tint_of, type_face
 from app.gui.session import Session
 from app.lab import LABORATORY, SECTION
 from app.state import State, open_lesson
@@ -52,8 +52,8 @@ class Contents(QWidget):
         self.list.clicked.connect(self._open)
         self.search.installEventFilter(self)
         column = QVBoxLayout(self)
-        column.setContentsMargins(GRID, GRID, GRID, 0)
-        column.setSpacing(GRID)
+        column.setContentsMargins(px(GRID), px(GRID), px(GRID), 0)
+        column.setSpacing(px(GRID))
         column.addWidget(self.search)
         column.addWidget(self.list, 1)
         self._lessons = [*lessons, BENCH]
@@ -176,7 +176,7 @@ class _List(QListView):
         super().paintEvent(event)  # type: ignore[arg-type]
         if self.empty:
             painter = QPainter(self.viewport())
-            where = self.viewport().rect().adjusted(GRID, GRID, -GRID, 0)
+            where = self.viewport().rect().adjusted(px(GRID), px(GRID), -px(GRID), 0)
             painter.drawText(where, Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap, self.empty)
             painter.end()
 
@@ -190,8 +190,8 @@ class _Painter(QStyledItemDelegate):
 
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
         if index.data(LESSON) is None:
-            return QSize(10, 4 * GRID if index.row() else 3 * GRID)
-        return QSize(10, 4 * GRID)
+            return QSize(px(10), px(4 * GRID) if index.row() else px(3 * GRID))
+        return QSize(px(10), px(4 * GRID))
 
     def paint(
         self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
@@ -206,7 +206,7 @@ class _Painter(QStyledItemDelegate):
             painter.setFont(type_face(12, QFont.Weight.DemiBold))
             painter.setPen(colour(theme.muted))
             where = Qt.AlignmentFlag.AlignBottom | Qt.AlignmentFlag.AlignLeft
-            painter.drawText(box.adjusted(GRID, 0, 0, -4), where, str(index.data()))
+            painter.drawText(box.adjusted(px(GRID), 0, 0, -px(4)), where, str(index.data()))
             painter.restore()
             return
         is_open = lesson.id == state.lesson.id
@@ -214,23 +214,24 @@ class _Painter(QStyledItemDelegate):
         if is_open or flags & QStyle.StateFlag.State_MouseOver:
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(colour(chosen_of(theme) if is_open else tint_of(theme)))
-            painter.drawRoundedRect(box.adjusted(0, 1, 0, -1), 6, 6)
+            painter.drawRoundedRect(box.adjusted(0, px(1), 0, -px(1)), fine(6), fine(6))
         if is_open:
             painter.setBrush(colour(theme.accent))
-            painter.drawRoundedRect(QRect(box.left(), box.top() + 8, 3, box.height() - 16), 1.5, 1.5)
+            bar = QRect(box.left(), box.top() + px(8), px(3), box.height() - 2 * px(8))
+            painter.drawRoundedRect(bar, fine(1.5), fine(1.5))
         if flags & QStyle.StateFlag.State_HasFocus:
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(colour(theme.accent))
-            painter.drawRoundedRect(box.adjusted(1, 2, -1, -2), 6, 6)
+            painter.setPen(QPen(colour(theme.accent), fine(1)))
+            painter.drawRoundedRect(box.adjusted(px(1), px(2), -px(1), -px(2)), fine(6), fine(6))
         number, title = numbered(lesson.title)
         ink, muted = colour(theme.ink), colour(theme.ink if is_open else theme.muted)
         if number:
             painter.setFont(type_face(13, QFont.Weight.Medium))
             painter.setPen(muted)
-            place = QRect(box.left() + GRID, box.top(), 3 * GRID - 2, box.height())
+            place = QRect(box.left() + px(GRID), box.top(), px(3 * GRID - 2), box.height())
             painter.drawText(place, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, number)
         face = type_face(14, QFont.Weight.DemiBold if is_open else QFont.Weight.Normal)
-        room = box.adjusted((4 if number else 1) * GRID, 0, -4, 0)
+        room = box.adjusted(px((4 if number else 1) * GRID), 0, -px(4), 0)
         cut = QFontMetrics(face).elidedText(title, Qt.TextElideMode.ElideRight, room.width())
         painter.setFont(face)
         painter.setPen(ink)

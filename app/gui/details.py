@@ -4,7 +4,7 @@ from PySide6.QtCore import QSettings, Qt
 from PySide6.QtWidgets import QScrollArea, QWidget
 
 from app.gui.furniture import scroll_alike
-from app.gui.look import GRID
+from app.gui.look import GRID, px
 from app.gui.parts import Head, column
 
 FOLDED = "folded"
@@ -17,10 +17,10 @@ class Details(QScrollArea):
     def __init__(self, *parts: QWidget, stretched: QWidget) -> None:
         super().__init__(widgetResizable=True)
         inside = column(*parts, stretched=stretched)
-        inside.setContentsMargins(2 * GRID, GRID + 4, 2 * GRID, 2 * GRID)
+        inside.setContentsMargins(px(2 * GRID), px(GRID + 4), px(2 * GRID), px(2 * GRID))
         self.setWidget(inside)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setMinimumWidth(184)
+        self.setMinimumWidth(px(184))
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
 
     def keep(self, settings: QSettings) -> None:

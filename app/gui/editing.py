@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QSi
 
 from app import bench, editing
 from app.gui.banner import Banner
-from app.gui.look import GRID, type_face
+from app.gui.look import GRID, px, sized, type_face
 from app.gui.parts import Section
 from app.gui.session import Session
 from app.gui.shown import Switch
@@ -69,8 +69,8 @@ class Editing(QWidget):
         self.rings = Stepper("rings", lambda by: self.wish(editing.turn_fan, 0, by))
         grid = QWidget()
         self._cells = QGridLayout(grid)
-        self._cells.setContentsMargins(0, GRID // 2, 0, GRID // 2)
-        self._cells.setSpacing(GRID // 2)
+        self._cells.setContentsMargins(0, px(GRID / 2), 0, px(GRID / 2))
+        self._cells.setSpacing(px(GRID / 2))
         for button in self.buttons.values():
             button.setParent(grid)  # those that are not offered are in no cell
         column = QVBoxLayout(self)
@@ -180,7 +180,7 @@ class Sharpness(QWidget):
         row.addWidget(QLabel("Sharpness"), 1)
         row.addWidget(self._value)
         column = QVBoxLayout(self)
-        column.setContentsMargins(0, GRID // 2, 0, 0)
+        column.setContentsMargins(0, px(GRID / 2), 0, 0)
         column.setSpacing(0)
         column.addLayout(row)
         column.addWidget(self.slider)
@@ -231,7 +231,7 @@ def sentence(words: str) -> str:
 def _button(title: str, key: str, tip: str, clicked: Callable[[], None]) -> QPushButton:
     button = QPushButton(title)
     button.setFont(type_face(12))
-    button.setStyleSheet("padding: 4px 0")
+    button.setStyleSheet(sized("padding: 4px 0"))
     button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     button.setAccessibleName(title)

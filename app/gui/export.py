@@ -26,7 +26,7 @@ from app.export.wish import FORMATS, OPAQUE, ExportError, Wish
 from app.export.worker import told
 from app.figures import BACKGROUNDS
 from app.gui.banner import Banner
-from app.gui.look import GRID
+from app.gui.look import GRID, px
 from app.state import State
 from app.strict import KeepingError
 
@@ -95,15 +95,15 @@ class ExportDialog(QDialog):
 
     def _lay_out(self) -> None:
         self._form = QFormLayout(self)
-        self._form.setContentsMargins(3 * GRID, 3 * GRID, 3 * GRID, 2 * GRID)
-        self._form.setSpacing(2 * GRID)
+        self._form.setContentsMargins(px(3 * GRID), px(3 * GRID), px(3 * GRID), px(2 * GRID))
+        self._form.setSpacing(px(2 * GRID))
         rows = (self.of, self.format, self.pixels, self.background, self.pace)
         for box in rows:
             self._form.addRow(box.accessibleName(), box)
         self._form.addRow("", self.limit)
         self._form.addRow(self.remark)
         self._form.addRow(self.buttons)
-        self.setMinimumWidth(400)
+        self.setMinimumWidth(px(400))
 
     def _begin(self, first: Wish) -> None:
         """As it was chosen last time."""

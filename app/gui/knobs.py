@@ -4,7 +4,7 @@ from functools import partial
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from app.gui.look import GRID
+from app.gui.look import GRID, px
 from app.gui.parts import emptied, gap, heading
 from app.gui.session import Session
 from app.gui.stepper import Stepper
@@ -40,6 +40,6 @@ class Knobs(QWidget):
         for k, knob in enumerate(knobs):
             keys = KEYS[k] if k < len(KEYS) else ("", "")
             self.rows.append(Stepper(knob.label, partial(self._session.do, turn_knob, k), keys))
-        for part in (heading("Change"), *self.rows, gap(2 * GRID)) if self.rows else ():
+        for part in (heading("Change"), *self.rows, gap(px(2 * GRID))) if self.rows else ():
             self._column.addWidget(part)
         self.setVisible(bool(self.rows))

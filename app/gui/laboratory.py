@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVB
 from app import bench
 from app.gui.banner import Banner
 from app.gui.choice import Choice
-from app.gui.look import GRID
+from app.gui.look import GRID, px
 from app.gui.parts import Section, emptied
 from app.gui.session import Session
 from app.gui.stepper import Stepper
@@ -42,8 +42,8 @@ class Laboratory(QWidget):
         self.more.clicked.connect(lambda: self.wish(bench.compare))
         rules = QWidget()
         self._column = QVBoxLayout(rules)
-        self._column.setContentsMargins(0, GRID // 2, 0, GRID)
-        self._column.setSpacing(GRID // 2)
+        self._column.setContentsMargins(0, px(GRID / 2), 0, px(GRID))
+        self._column.setSpacing(px(GRID / 2))
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(Section("Laboratory", self.shape, self.levels, rules, self.more))
@@ -154,7 +154,7 @@ class Pane(QWidget):
         self.until.setVisible(number > 0)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(GRID // 2)
+        column.setSpacing(px(GRID / 2))
         if is_one_of_many:
             column.addWidget(_numbered(number, partial(wish, bench.drop, number)))
         for part in (
@@ -193,7 +193,7 @@ def _numbered(number: int, drop: Callable[[], None]) -> QWidget:
     close.clicked.connect(lambda: drop())
     found = QWidget()
     row = QHBoxLayout(found)
-    row.setContentsMargins(0, GRID // 2, 0, 0)
+    row.setContentsMargins(0, px(GRID / 2), 0, 0)
     row.addWidget(QLabel(f"Pane {number + 1}"), 1)
     row.addWidget(close)
     return found

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app import boxlab
 from app.draw.theme import THEMES, mixed
-from app.gui.look import GRID, colour, line_of, type_face
+from app.gui.look import GRID, colour, fine, line_of, px, type_face
 from app.gui.session import Session
 from app.state import State
 from subdivision import Role
@@ -19,13 +19,13 @@ from subdivision.catalogue import Vectors
 from subdivision.passes import Vector
 
 SIDE = 168
-"""Height of the widget in pixels, and how wide the lattice is at most."""
+"""Height of the widget in pixels at 100 %, and how wide the lattice is at most."""
 
 LEAST = 2
 """The lattice goes at least so far each way, and one step further than the longest vector."""
 
 HEAD = 7.0
-"""Length of an arrow's head in pixels."""
+"""Length of an arrow's head in pixels at 100 %."""
 
 WAYS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Down: (0, -1), Qt.Key.Key_Up: (0, 1)}
 ADDING = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
@@ -53,7 +53,7 @@ class Lattice(QWidget):
         self._target: Vector | None = None
         self._under: Vector | None = None
         self.ring: Vector = (1, 1)
-        self.setFixedHeight(SIDE)
+        self.setFixedHeight(px(SIDE))
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
@@ -112,7 +112,7 @@ class Lattice(QWidget):
         return numbers[-1] if numbers else None
 
     def _step(self) -> float:
-        return (min(self.width(), self.height()) - GRID) / (2 * self._reach + 1)
+        return (min(self.width(), self.height()) - fine(GRID)) / (2 * self._reach + 1)
 
     def _point_at(self, at: QPointF) -> Vector:
         """The nearest point of the lattice."""
@@ -206,47 +206,48 @@ class Lattice(QWidget):
             self._arrow(painter, self._target or (0, 0), colour(theme.roles[Role.FACE]), dashed=True)
         if self.hasFocus():
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(colour(theme.accent), 2))
-            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 6, 6)
+            painter.setPen(QPen(colour(theme.accent), fine(2)))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), fine(6), fine(6))
         painter.end()
 
     def _rule(self, painter: QPainter, line: QColor, axis: QColor) -> None:
         end = self._reach + 0.4
         middle, step = self.place((0, 0)), self._step() * end
         for k in range(-self._reach, self._reach + 1):
-            painter.setPen(QPen(axis if k == 0 else line, 1.5 if k == 0 else 1.0))
+            painter.setPen(QPen(axis if k == 0 else line, fine(1.5 if k == 0 else 1.0)))
             x, y = self.place((k, 0)).x(), self.place((0, k)).y()
             painter.drawLine(QPointF(x, middle.y() - step), QPointF(x, middle.y() + step))
             painter.drawLine(QPointF(middle.x() - step, y), QPointF(middle.x() + step, y))
 
     def _rings(self, painter: QPainter, ink: QColor, ground: QColor) -> None:
         """Round what is ringed, and under the mouse."""
-        radius = min(0.4 * self._step(), 9.0)
+        radius = min(0.4 * self._step(), fine(9))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(ground)
         if self._under is not None:
             painter.drawEllipse(self.place(self._under), radius, radius)
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(QPen(ink, 2.0 if self.hasFocus() else 1.2))
+        painter.setPen(QPen(ink, fine(2.0 if self.hasFocus() else 1.2)))
         painter.drawEllipse(self.place(self.ring), radius, radius)
 
     def _arrow(self, painter: QPainter, vector: Vector, ink: QColor, *, dashed: bool = False) -> None:
         start, tip = self.place((0, 0)), self.place(vector)
-        pen = QPen(ink, 2.2, Qt.PenStyle.DashLine if dashed else Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
+        pen = QPen(ink, fine(2.2), Qt.PenStyle.DashLine if dashed else Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
         painter.setPen(pen)
         painter.drawLine(start, tip)
         length = hypot(tip.x() - start.x(), tip.y() - start.y())
         if length == 0:
             return
-        back = (start - tip) * (HEAD / length)
+        back = (start - tip) * (fine(HEAD) / length)
         aside = QPointF(-back.y(), back.x()) * 0.55
-        painter.setPen(QPen(ink, 2.2, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.setPen(QPen(ink, fine(2.2), Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
         painter.drawPolyline([tip + back + aside, tip, tip + back - aside])
 
     def _count(self, painter: QPainter, vector: Vector, times: int, ink: QColor) -> None:
         right, up = (vector[0] >= 0) - (vector[0] < 0), (vector[1] > 0) - (vector[1] <= 0)
-        off = max(0.5 * self._step(), 11.0)
+        off, wide, tall = max(0.5 * self._step(), fine(11)), fine(32), fine(16)
         middle = self.place(vector) + QPointF(off * right, -off * up)
         painter.setFont(type_face(12, QFont.Weight.DemiBold))
         painter.setPen(ink)
-        painter.drawText(QRectF(middle.x() - 16, middle.y() - 8, 32, 16), Qt.AlignmentFlag.AlignCenter, f"×{times}")
+        place = QRectF(middle.x() - wide / 2, middle.y() - tall / 2, wide, tall)
+        painter.drawText(place, Qt.AlignmentFlag.AlignCenter, f"×{times}")

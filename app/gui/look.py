@@ -1,5 +1,6 @@
 """The window's looks from a theme: palette, style sheet, typeface and icons."""
 
+import re
 from functools import cache
 
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
@@ -13,7 +14,30 @@ from app.draw.theme import THEMES, Theme, mixed
 
 FAMILY = "Inter"
 GRID = 8
-"""All distances in the window are multiples of it (or of its half), in pixels."""
+"""All distances in the window are multiples of it (or of its half), in pixels at 100 %."""
+
+_scale = 1.0
+
+
+def rescale(scale: float) -> None:
+    """From now on everything in the window is so many times as large as at 100 %."""
+    global _scale
+    _scale = scale
+
+
+def fine(pixels: float) -> float:
+    """So many pixels of 100 % at the scale of the window: for strokes, and for what is painted."""
+    return pixels * _scale
+
+
+def px(pixels: float) -> int:
+    """The same in whole pixels: for widgets and the space between them.  Something never becomes nothing."""
+    return max(round(fine(pixels)), 1) if pixels else 0
+
+
+def sized(sheet: str) -> str:
+    """A style sheet whose pixels are those of 100 %, at the scale of the window."""
+    return re.sub(r"\b(\d+)px", lambda found: f"{px(int(found[1]))}px", sheet)
 
 
 def colour(value: Colour, opacity: float = 1.0) -> QColor:
@@ -37,9 +61,9 @@ def chosen_of(theme: Theme) -> Colour:
 
 
 def type_face(pixels: float, weight: QFont.Weight = QFont.Weight.Normal) -> QFont:
-    """The house typeface, with figures of equal width."""
+    """The house typeface, with figures of equal width; ``pixels`` high at 100 %."""
     font = QFont(FAMILY)
-    font.setPixelSize(max(round(pixels), 1))
+    font.setPixelSize(px(pixels))
     font.setWeight(weight)
     font.setFeature(QFont.Tag.fromString("tnum"), 1)
     return font
@@ -129,7 +153,7 @@ def sheet(theme: Theme) -> str:
         "$tint": tint_of(theme), "$line": line_of(theme), "$chosen": chosen_of(theme),
         "$faded": mixed(theme.panel, theme.ink, 0.45),
     }  # fmt: skip
-    text = SHEET
+    text = sized(SHEET)
     for word, value in words.items():
         text = text.replace(word, colour(value).name())
     return text
@@ -143,7 +167,7 @@ def icon(name: str, theme_name: str) -> QIcon:
     faded = mixed(theme.panel, theme.ink, 0.35)
     for ink, mode in ((theme.ink, QIcon.Mode.Normal), (faded, QIcon.Mode.Disabled)):
         drawing = (ASSETS / "icons" / f"{name}.svg").read_text().replace("currentColor", colour(ink).name())
-        for size in (16, 20, 24, 32, 40, 48, 64, 96):
+        for size in (12, 16, 20, 24, 32, 40, 48, 64, 96, 128):
             found.addPixmap(drawn(drawing, size), mode)
     return found
 

@@ -6,13 +6,13 @@ from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QVBoxLay
 
 from app.draw.lattice import over_one, shade
 from app.draw.theme import THEMES, mixed
-from app.gui.look import GRID, colour, type_face
+from app.gui.look import GRID, colour, fine, px, type_face
 from app.gui.session import Session
 from subdivision.catalogue import Vectors
 from subdivision.continuity import mask
 
 ROW = 20
-"""Height of a row in pixels."""
+"""Height of a row in pixels at 100 %."""
 
 
 class MaskTable(QWidget):
@@ -30,7 +30,7 @@ class MaskTable(QWidget):
         self._scroll.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(GRID // 2)
+        column.setSpacing(px(GRID / 2))
         column.addWidget(self._head)
         column.addWidget(self._scroll)
 
@@ -38,7 +38,7 @@ class MaskTable(QWidget):
         rows, below = over_one(mask(vectors))
         self._head.setText(f"Mask × 1/{below}" if below > 1 else "Mask")
         self.cells.show_rows(rows)
-        self._scroll.setFixedHeight(ROW * len(rows) + GRID)
+        self._scroll.setFixedHeight(px(ROW) * len(rows) + px(GRID))
         self.setAccessibleName(self._head.text())
         self.setAccessibleDescription("; ".join(" ".join(map(str, row)) for row in rows))
 
@@ -54,7 +54,7 @@ class Cells(QWidget):
     def show_rows(self, rows: list[list[int]]) -> None:
         self.rows = rows
         wide = max(QFontMetricsF(type_face(12)).horizontalAdvance(str(n)) for row in rows for n in row)
-        self.setMinimumSize(round(len(rows[0]) * max(wide + 6, 18)), ROW * len(rows))
+        self.setMinimumSize(round(len(rows[0]) * max(wide + fine(6), fine(18))), px(ROW) * len(rows))
         self.update()
 
     def sizeHint(self) -> QSize:
@@ -66,11 +66,12 @@ class Cells(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setFont(type_face(12))
         heaviest = max(max(row) for row in self.rows)
-        wide = min(self.width() / len(self.rows[0]), 2.0 * ROW)
+        tall = px(ROW)
+        wide = min(self.width() / len(self.rows[0]), 2.0 * tall)
         for j, row in enumerate(self.rows):
             for i, count in enumerate(row):
                 ground = colour(mixed(theme.panel, theme.muted, shade(count, heaviest)))
-                self._cell(painter, QRectF(i * wide, j * ROW, wide, ROW), count, ground, colour(theme.ink))
+                self._cell(painter, QRectF(i * wide, j * tall, wide, tall), count, ground, colour(theme.ink))
         painter.end()
 
     def _cell(self, painter: QPainter, room: QRectF, count: int, ground: QColor, ink: QColor) -> None:
@@ -78,6 +79,6 @@ class Cells(QWidget):
             return
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(ground)
-        painter.drawRoundedRect(room.adjusted(1, 1, -1, -1), 3, 3)
+        painter.drawRoundedRect(room.adjusted(1, 1, -1, -1), fine(3), fine(3))
         painter.setPen(ink)
         painter.drawText(room, Qt.AlignmentFlag.AlignCenter, str(count))

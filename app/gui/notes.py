@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from app.draw.theme import THEMES
-from app.gui.look import GRID, colour
+from app.gui.look import GRID, colour, px
 from app.gui.parts import gap, heading
 from app.state import State
 
@@ -23,7 +23,7 @@ class Notes(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        for part in (heading("Notes"), self.words, gap(2 * GRID)):
+        for part in (heading("Notes"), self.words, gap(px(2 * GRID))):
             column.addWidget(part)
 
     def show_state(self, state: State) -> None:

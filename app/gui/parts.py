@@ -4,7 +4,7 @@ from PySide6.QtCore import QPointF, QSize, Qt
 from PySide6.QtGui import QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QLabel, QVBoxLayout, QWidget
 
-from app.gui.look import type_face
+from app.gui.look import fine, px, type_face
 
 
 def column(*parts: QWidget, stretched: QWidget | None = None) -> QWidget:
@@ -22,7 +22,7 @@ def heading(text: str) -> QLabel:
     """The name of a part of a panel."""
     label = QLabel(text)
     label.setFont(type_face(12, QFont.Weight.DemiBold))
-    label.setContentsMargins(0, 0, 0, 4)
+    label.setContentsMargins(0, 0, 0, px(4))
     return label
 
 
@@ -32,7 +32,7 @@ class Section(QWidget):
     def __init__(self, title: str, *parts: QWidget, stretched: QWidget | None = None) -> None:
         super().__init__()
         self.head = Head(title)
-        self.inside = column(*parts, gap(12), stretched=stretched)
+        self.inside = column(*parts, gap(px(12)), stretched=stretched)
         self.head.toggled.connect(self.inside.setVisible)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -55,7 +55,7 @@ class Head(QAbstractButton):
         self.setAccessibleName(title)
 
     def sizeHint(self) -> QSize:
-        return QSize(120, 24)
+        return QSize(px(120), px(24))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
@@ -63,11 +63,11 @@ class Head(QAbstractButton):
         ink = self.palette().windowText().color()
         painter.setPen(ink)
         painter.drawText(self.rect(), Qt.AlignmentFlag.AlignVCenter, self.text())
-        painter.translate(self.width() - 9, self.height() / 2)
+        painter.translate(self.width() - fine(9), self.height() / 2)
         painter.rotate(0 if self.isChecked() else -90)
         painter.setOpacity(0.9 if self.underMouse() or self.hasFocus() else 0.55)
-        painter.setPen(QPen(ink, 1.6, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-        painter.drawPolyline([QPointF(-4, -2), QPointF(0, 2), QPointF(4, -2)])
+        painter.setPen(QPen(ink, fine(1.6), Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawPolyline([QPointF(fine(x), fine(y)) for x, y in ((-4, -2), (0, 2), (4, -2))])
         painter.end()
 
 

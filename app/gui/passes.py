@@ -8,14 +8,14 @@ from PySide6.QtGui import QFont, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QSizePolicy
 
 from app import boxlab
-from app.gui.look import type_face
+from app.gui.look import px, type_face
 from app.gui.session import Session
 from app.state import State
 from subdivision.catalogue import Vectors
 from subdivision.passes import spelled
 
 ROW, MOST = 24, 9
-"""Height of a row in pixels, and how many rows are seen at once."""
+"""Height of a row in pixels at 100 %, and how many rows are seen at once."""
 
 WAYS = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
 REMOVING = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)
@@ -54,11 +54,11 @@ class Passes(QListWidget):
         for text in ("quadruple", *(f"average {spelled(v)}" for v in passes)):
             item = QListWidgetItem(f"{self.count() + 1}  {text}")
             item.setFont(type_face(14))
-            item.setSizeHint(QSize(0, ROW))
+            item.setSizeHint(QSize(0, px(ROW)))
             self.addItem(item)
         self.item(0).setFlags(self.item(0).flags() & ~Qt.ItemFlag.ItemIsSelectable)
         self.setCurrentRow(min(max(here, 0), self.count() - 1))
-        self.setFixedHeight(ROW * min(self.count(), MOST) + 4)
+        self.setFixedHeight(px(ROW) * min(self.count(), MOST) + px(4))
 
     def _move(self, number: int, to: int) -> None:
         """A pass to another place; the row that is chosen goes with it."""

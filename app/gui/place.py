@@ -2,6 +2,7 @@
 
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QSizePolicy, QWidget
 
+from app.gui.look import px
 from app.gui.session import Session
 from app.state import State, drag
 
@@ -16,7 +17,7 @@ class Place(QWidget):
         self._session = session
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
+        row.setSpacing(px(4))
         self.boxes = [QDoubleSpinBox() for _ in "xyz"]
         for name, box in zip("xyz", self.boxes, strict=True):
             box.setRange(-MOST, MOST)

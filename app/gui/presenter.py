@@ -10,7 +10,7 @@ from app.draw.theme import THEMES
 from app.draw.type import measure
 from app.gui.brush import type_
 from app.gui.furniture import throw_away
-from app.gui.look import GRID, type_face
+from app.gui.look import GRID, fine, px, type_face
 from app.gui.parts import heading
 from app.gui.session import Session
 from app.gui.timeline import current
@@ -24,7 +24,7 @@ SIZE = 960, 600
 """Where there is no second screen to fill."""
 
 FORMULA = 30.0
-"""Pixels."""
+"""Pixels at 100 %."""
 
 
 class Presenter(QWidget):
@@ -70,8 +70,8 @@ class Presenter(QWidget):
 
     def _lay_out(self) -> None:
         column = QVBoxLayout(self._inside)
-        column.setContentsMargins(4 * GRID, 3 * GRID, 4 * GRID, 3 * GRID)
-        column.setSpacing(GRID)
+        column.setContentsMargins(px(4 * GRID), px(3 * GRID), px(4 * GRID), px(3 * GRID))
+        column.setSpacing(px(GRID))
         top, bottom = QHBoxLayout(), QGridLayout()
         top.addWidget(self.lesson, 1)
         top.addWidget(self.step)
@@ -84,17 +84,17 @@ class Presenter(QWidget):
             bottom.addWidget(value, 1, k)
         bottom.addWidget(self.again, 1, 2)
         bottom.setColumnStretch(3, 1)
-        bottom.setHorizontalSpacing(4 * GRID)
+        bottom.setHorizontalSpacing(px(4 * GRID))
         column.addLayout(top)
-        column.addSpacing(GRID)
+        column.addSpacing(px(GRID))
         for part in (self.caption, self.formula):
             column.addWidget(part)
-        column.addSpacing(2 * GRID)
+        column.addSpacing(px(2 * GRID))
         column.addWidget(heading("Notes"))
         column.addWidget(reader, 1)
         column.addWidget(heading("Next"))
         column.addWidget(self.following)
-        column.addSpacing(2 * GRID)
+        column.addSpacing(px(2 * GRID))
         column.addLayout(bottom)
 
     def open(self, beside: QWidget) -> None:
@@ -144,16 +144,17 @@ class Formula(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._text = Text(0.0, 0.0, "", FORMULA, (0.0, 0.0, 0.0))
+        self._text = Text(0.0, 0.0, "", fine(FORMULA), (0.0, 0.0, 0.0))
         self.hide()
 
     def show_state(self, state: State) -> None:
         words = state.now.formula
         self.setVisible(bool(words))
         if words:
-            _, ascent, descent = measure(words, FORMULA)
-            self._text = Text(0.0, ascent + 2, words, FORMULA, THEMES[state.options.theme].ink)
-            self.setFixedHeight(round(ascent + descent) + 4)
+            size, edge = fine(FORMULA), px(2)
+            _, ascent, descent = measure(words, size)
+            self._text = Text(0.0, ascent + edge, words, size, THEMES[state.options.theme].ink)
+            self.setFixedHeight(round(ascent + descent) + 2 * edge)
             self.setAccessibleName(words)
             self.update()
 

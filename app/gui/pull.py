@@ -9,16 +9,16 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, Q
 from PySide6.QtWidgets import QAbstractSlider, QSizePolicy
 
 from app.draw.theme import THEMES, Theme, mixed
-from app.gui.look import colour, line_of, type_face
+from app.gui.look import colour, fine, line_of, px, type_face
 from subdivision.catalogue import Parameter
 from subdivision.extraordinary import EQUAL, Special
 from subdivision.smoothness import Between
 
 TRACK, ROW, INSET = 14.0, 15.0, 9.0
-"""Where the track is below the top, how high a row of names is, and how far from either side the track ends."""
+"""Where the track is below the top, how high a row of names is, how far from either side the track ends; at 100 %."""
 
 NEAR = 5.0
-"""Pixels within which the hand takes a pull with a name."""
+"""Pixels at 100 % within which the hand takes a pull with a name."""
 
 
 @dataclass(frozen=True)
@@ -82,16 +82,17 @@ class PullSlider(QAbstractSlider):
         self.setValue(self.places.index(here))
         self.blockSignals(False)
         self.setAccessibleDescription(f"{here} of the way")
-        self.setFixedHeight(round(TRACK + 14 + ROW * len(track.names)))
+        self.setFixedHeight(px(TRACK + 14 + ROW * len(track.names)))
         self.update()
 
     def sizeHint(self) -> QSize:
-        return QSize(140, round(TRACK + 14 + 3 * ROW))
+        return QSize(px(140), px(TRACK + 14 + 3 * ROW))
 
     def x_of(self, pull: float) -> float:
         """Where a pull is on the track, in pixels."""
         least, most = self._limits()
-        return INSET + (pull - least) / (most - least) * (self.width() - 2 * INSET)
+        inset = fine(INSET)
+        return inset + (pull - least) / (most - least) * (self.width() - 2 * inset)
 
     def _limits(self) -> tuple[float, float]:
         assert self._track is not None
@@ -100,7 +101,8 @@ class PullSlider(QAbstractSlider):
     def _nearest(self, x: float) -> int:
         """The place for the hand at ``x``: a pull with a name if one is near."""
         named = self._track.exact if self._track is not None else set()
-        away = [(abs(self.x_of(float(p)) - x) - (NEAR if p in named else 0.0), k) for k, p in enumerate(self.places)]
+        near = fine(NEAR)
+        away = [(abs(self.x_of(float(p)) - x) - (near if p in named else 0.0), k) for k, p in enumerate(self.places)]
         return min(away)[1]
 
     # -- Qt's own -------------------------------------------------------------------------------
@@ -140,36 +142,39 @@ class PullSlider(QAbstractSlider):
         """Thin where the surface has a tip, heavy where it is C1; a stroke across where that begins or ends."""
         least, most = self._limits()
         low, high = max(float(track.smooth.least), least), min(float(track.smooth.most), most)
-        quiet = QPen(colour(mixed(line_of(theme), theme.ink, 0.3)), 2, Qt.PenStyle.DotLine)
+        y, half = fine(TRACK), fine(8)
+        quiet = QPen(colour(mixed(line_of(theme), theme.ink, 0.3)), fine(2), Qt.PenStyle.DotLine)
         painter.setPen(quiet)
-        painter.drawLine(QPointF(self.x_of(least), TRACK), QPointF(self.x_of(most), TRACK))
-        painter.setPen(QPen(colour(theme.accent), 5, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap))
-        painter.drawLine(QPointF(self.x_of(low), TRACK), QPointF(self.x_of(high), TRACK))
-        painter.setPen(QPen(colour(theme.accent), 2))
+        painter.drawLine(QPointF(self.x_of(least), y), QPointF(self.x_of(most), y))
+        painter.setPen(QPen(colour(theme.accent), fine(5), Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap))
+        painter.drawLine(QPointF(self.x_of(low), y), QPointF(self.x_of(high), y))
+        painter.setPen(QPen(colour(theme.accent), fine(2)))
         for end in (float(track.smooth.least), float(track.smooth.most)):
             if least < end < most:
-                painter.drawLine(QPointF(self.x_of(end), TRACK - 8), QPointF(self.x_of(end), TRACK + 8))
+                painter.drawLine(QPointF(self.x_of(end), y - half), QPointF(self.x_of(end), y + half))
 
     def _paint_names(self, painter: QPainter, theme: Theme, track: Track) -> None:
         """Each name in a row of its own, led to from its place on the track, the rightmost first."""
         painter.setFont(type_face(12))
-        painter.setPen(QPen(colour(theme.muted), 1))
-        rows = [(self.x_of(pull), TRACK + 8 + row * ROW, name) for row, (pull, name) in enumerate(track.names[::-1])]
+        painter.setPen(QPen(colour(theme.muted), fine(1)))
+        tall, edge = fine(ROW), fine(2)
+        top, names = fine(TRACK + 8), track.names[::-1]
+        rows = [(self.x_of(pull), top + row * tall, name) for row, (pull, name) in enumerate(names)]
         for x, y, _ in rows:
-            painter.drawLine(QPointF(x, TRACK + 3), QPointF(x, y + ROW / 2))
+            painter.drawLine(QPointF(x, fine(TRACK + 3)), QPointF(x, y + tall / 2))
         painter.setPen(colour(theme.ink))
         for x, y, name in rows:
-            wide = painter.fontMetrics().horizontalAdvance(name) + 4
-            place = QRectF(max(min(x + 3, self.width() - wide), 0), y, wide, ROW)
+            wide = painter.fontMetrics().horizontalAdvance(name) + 2 * edge
+            place = QRectF(max(min(x + fine(3), self.width() - wide), 0), y, wide, tall)
             painter.fillRect(place.adjusted(0, 1, 0, -1), colour(theme.panel))  # no line runs through a name
-            painter.drawText(place.translated(2, 0), Qt.AlignmentFlag.AlignVCenter, name)
+            painter.drawText(place.translated(edge, 0), Qt.AlignmentFlag.AlignVCenter, name)
 
     def _paint_handle(self, painter: QPainter, theme: Theme) -> None:
-        middle = QPointF(self.x_of(float(self.places[self.value()])), TRACK)
+        middle = QPointF(self.x_of(float(self.places[self.value()])), fine(TRACK))
         painter.setBrush(colour(theme.panel))
-        painter.setPen(QPen(colour(theme.accent if self.hasFocus() or self.isSliderDown() else theme.ink), 2.5))
-        painter.drawEllipse(middle, 6.5, 6.5)
+        painter.setPen(QPen(colour(theme.accent if self.hasFocus() or self.isSliderDown() else theme.ink), fine(2.5)))
+        painter.drawEllipse(middle, fine(6.5), fine(6.5))
         if self.hasFocus():
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(colour(theme.accent), 1.5))
-            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 4, 4)
+            painter.setPen(QPen(colour(theme.accent), fine(1.5)))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), fine(4), fine(4))

@@ -5,7 +5,7 @@ from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QCheckBox, QVBoxLayout, QWidget
 
 from app.draw.theme import THEMES, mixed
-from app.gui.look import GRID, colour, line_of, type_face
+from app.gui.look import GRID, colour, fine, line_of, px, type_face
 from app.gui.session import Session
 from app.state import State, toggle
 
@@ -60,7 +60,7 @@ class Switch(QCheckBox):
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
 
     def sizeHint(self) -> QSize:
-        return QSize(144, 28)
+        return QSize(px(144), px(28))
 
     def hitButton(self, pos: object) -> bool:
         return True
@@ -70,26 +70,27 @@ class Switch(QCheckBox):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setOpacity(1.0 if self.isEnabled() else 0.45)
-        box = QRectF(1, (self.height() - 16) / 2, 16, 16)
+        side = fine(16)
+        box = QRectF(fine(1), (self.height() - side) / 2, side, side)
         edge = theme.accent if self.isChecked() or self.underMouse() else mixed(line_of(theme), theme.ink, 0.3)
-        painter.setPen(QPen(colour(edge), 1.5))
+        painter.setPen(QPen(colour(edge), fine(1.5)))
         painter.setBrush(colour(theme.accent) if self.isChecked() else Qt.BrushStyle.NoBrush)
-        painter.drawRoundedRect(box, 4, 4)
+        painter.drawRoundedRect(box, fine(4), fine(4))
         if self.isChecked():
-            painter.setPen(QPen(colour(theme.background), 2, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-            painter.drawPolyline(QPolygonF([box.topLeft() + p for p in TICK]))
+            painter.setPen(QPen(colour(theme.background), fine(2), Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawPolyline(QPolygonF([box.topLeft() + QPointF(fine(x), fine(y)) for x, y in TICK]))
         painter.setFont(type_face(14))
         painter.setPen(colour(theme.ink))
-        words = QRectF(box.right() + GRID, 0, self.width() - box.right() - 3 * GRID, self.height())
+        words = QRectF(box.right() + fine(GRID), 0, self.width() - box.right() - fine(3 * GRID), self.height())
         painter.drawText(words, Qt.AlignmentFlag.AlignVCenter, self.text())
         painter.setFont(type_face(12))
         painter.setPen(colour(theme.muted))
         painter.drawText(self.rect(), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, self._key)
         if self.hasFocus():
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(colour(theme.accent), 1.5))
-            painter.drawRoundedRect(QRectF(self.rect()).adjusted(-1, 1, -1, -1), 4, 4)
+            painter.setPen(QPen(colour(theme.accent), fine(1.5)))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(-1, 1, -1, -1), fine(4), fine(4))
         painter.end()
 
 
-TICK = (QPointF(4, 8.4), QPointF(7, 11.4), QPointF(12.2, 5.2))
+TICK = ((4, 8.4), (7, 11.4), (12.2, 5.2))

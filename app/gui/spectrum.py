@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWi
 
 from app import bench
 from app.draw.theme import THEMES, Theme
-from app.gui.look import GRID, colour, type_face
+from app.gui.look import GRID, colour, px, sized, type_face
 from app.gui.parts import Section
 from app.gui.pull import PullSlider, Track
 from app.gui.session import Session
@@ -32,7 +32,7 @@ class Spectrum(QWidget):
         self.slider = PullSlider(lambda: session.state.options.theme, self._pull, session.let_go)
         self.vary = QPushButton("Let the vertex rule be varied")
         self.vary.setFont(type_face(12))
-        self.vary.setStyleSheet("padding: 4px 0")
+        self.vary.setStyleSheet(sized("padding: 4px 0"))
         self.vary.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.vary.setAccessibleName(self.vary.text())
         self.vary.setToolTip("The same rule at this valence, with a slider for how far a vertex is pulled")
@@ -43,7 +43,7 @@ class Spectrum(QWidget):
         inside = QWidget()
         rows = QVBoxLayout(inside)
         rows.setContentsMargins(0, 0, 0, 0)
-        rows.setSpacing(GRID // 2)
+        rows.setSpacing(px(GRID / 2))
         for part in (self.valence, self.way, self.slider, self.vary, self.words):
             rows.addWidget(part)
         column.addWidget(Section("Extraordinary points", inside))
@@ -85,12 +85,13 @@ def said(found: Analysis, theme: Theme) -> str:
     muted = colour(theme.muted).name()
     ring = found.subdominant
     rows = "".join(
-        f'<tr><td style="color:{muted}; padding-right:8px">{escape(_mode(k))}</td><td align="right">{values}</td></tr>'
+        f'<tr><td style="color:{muted}; padding-right:{px(8)}px">{escape(_mode(k))}</td>'
+        f'<td align="right">{values}</td></tr>'
         for k, values in _by_mode(found)
     )
     return (
         f"<p>λ = {decimals(ring)}<br>λ² = {decimals(ring**2)}</p>"
-        f"<table cellspacing='1'><tr><td style='color:{muted}'>mode</td><td></td></tr>{rows}</table>"
+        f"<table cellspacing='{px(1)}'><tr><td style='color:{muted}'>mode</td><td></td></tr>{rows}</table>"
         + "".join(_verdict(c, muted) for c in found.conditions)
     )
 

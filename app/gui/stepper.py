@@ -5,7 +5,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
-from app.gui.look import GRID, type_face
+from app.gui.look import GRID, px, type_face
 
 
 class Stepper(QWidget):
@@ -15,13 +15,13 @@ class Stepper(QWidget):
         super().__init__()
         self._value = QLabel(alignment=Qt.AlignmentFlag.AlignCenter)
         self._value.setFont(type_face(16))
-        self._value.setMinimumWidth(3 * GRID)
+        self._value.setMinimumWidth(px(3 * GRID))
         self.less, self.more = _button("−", f"Less {name}", keys[0]), _button("+", f"More {name}", keys[1])
         self.less.clicked.connect(lambda: step(-1))
         self.more.clicked.connect(lambda: step(1))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(GRID // 4)
+        row.setSpacing(px(GRID / 4))
         words = QLabel(f"{name[:1].upper()}{name[1:]}")
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)  # never widens the panel
         row.addWidget(words, 1)
@@ -38,7 +38,7 @@ def _button(sign: str, name: str, keys: str) -> QToolButton:
     button = QToolButton()
     button.setText(sign)
     button.setFont(type_face(16))
-    button.setFixedSize(QSize(3 * GRID + 4, 3 * GRID + 4))
+    button.setFixedSize(QSize(px(3 * GRID + 4), px(3 * GRID + 4)))
     button.setAutoRepeat(True)
     button.setAccessibleName(name)
     button.setToolTip(f"{name} ({keys})" if keys else name)

@@ -4,7 +4,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.draw.surface import SHOWS
 from app.gui.choice import Choice
-from app.gui.look import GRID
+from app.gui.look import GRID, px
 from app.gui.session import Session
 from app.gui.shown import Switch
 from app.state import State, choose, toggle
@@ -32,7 +32,7 @@ class Surface(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.shows)
-        column.addSpacing(GRID // 2)
+        column.addSpacing(px(GRID / 2))
         self.switches = {option: Switch(name, key, session) for option, name, key in SWITCHES}
         for option, switch in self.switches.items():
             switch.setToolTip(TIPS[option])

@@ -8,13 +8,15 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QToolTip, Q
 
 from app.draw.compose import said
 from app.draw.theme import THEMES, mixed
-from app.gui.look import GRID, colour, icon, type_face
+from app.gui.look import GRID, colour, fine, icon, px, type_face
 from app.gui.session import Session
 from app.state import Segment, State, axis_of, choose, seek, segments
 
 HEIGHT = 7 * GRID
+"""Pixels at 100 %."""
+
+"""Pixels at 100 %: so near to a stage's end, scrubbing is at it."""
 SNAP = 6.0
-"""Pixels: so near to a stage's end, scrubbing is at it."""
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 
@@ -27,23 +29,23 @@ class Timeline(QWidget):
 
     def __init__(self, session: Session, button: Make) -> None:
         super().__init__()
-        self.setFixedHeight(HEIGHT)
+        self.setFixedHeight(px(HEIGHT))
         self._track = Track(session)
         row = QHBoxLayout(self)
-        row.setContentsMargins(GRID, 0, GRID, 0)
+        row.setContentsMargins(px(GRID), 0, px(GRID), 0)
         row.setSpacing(0)
         for name in ("first", "back", "play", "forward", "last"):
             row.addWidget(button(name))
-        row.addSpacing(GRID)
+        row.addSpacing(px(GRID))
         row.addWidget(self._track, 1)
-        row.addSpacing(GRID)
+        row.addSpacing(px(GRID))
         for name in ("level_down", "level_up", "through"):
             row.addWidget(button(name))
         self._speed = QToolButton()
         self._speed.setToolTip("Speed: slower −, faster +")
         self._speed.setAccessibleName("Speed")
         self._speed.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self._speed.setMinimumSize(QSize(48, 32))
+        self._speed.setMinimumSize(QSize(px(48), px(32)))
         self._speed.clicked.connect(lambda: session.do(choose, speed=next_speed(session.state.options.speed)))
         row.addWidget(self._speed)
 
@@ -73,13 +75,15 @@ class Track(QWidget):
 
     def _x(self, axis: float) -> float:
         end = segments(self._session.state.lesson)[-1].end
-        return GRID + axis / end * (self.width() - 2 * GRID)
+        margin = fine(GRID)
+        return margin + axis / end * (self.width() - 2 * margin)
 
     def _axis(self, x: float) -> float:
         parts = segments(self._session.state.lesson)
-        axis = (x - GRID) / max(self.width() - 2 * GRID, 1) * parts[-1].end
+        margin = fine(GRID)
+        axis = (x - margin) / max(self.width() - 2 * margin, 1) * parts[-1].end
         near = min((e for s in parts for e in (s.begin, s.end)), key=lambda e: abs(e - axis))
-        return near if abs(self._x(near) - x) <= SNAP else axis
+        return near if abs(self._x(near) - x) <= fine(SNAP) else axis
 
     # -- the hand -------------------------------------------------------------------------------
 
@@ -117,7 +121,7 @@ class Track(QWidget):
         theme = THEMES[state.options.theme]
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        axis, middle = axis_of(state), self.height() / 2 + 1
+        axis, middle = axis_of(state), self.height() / 2 + fine(1)
         parts, now = segments(state.lesson), current(state)
         idle, done = mixed(theme.panel, theme.ink, 0.22), theme.accent
         taken = -1e9
@@ -126,26 +130,29 @@ class Track(QWidget):
             self._bar(painter, left, right, middle, colour(idle))
             if axis > s.begin:
                 self._bar(painter, left, min(right, self._x(axis)), middle, colour(done))
-            tall = 11.0 if s.ends_level else 6.0
-            painter.setPen(QPen(colour(theme.ink if s.ends_level else theme.muted), 1.6 if s.ends_level else 1.0))
+            tall = fine(11 if s.ends_level else 6)
+            painter.setPen(QPen(colour(theme.ink if s.ends_level else theme.muted), fine(1.6 if s.ends_level else 1)))
             painter.drawLine(QPointF(right, middle - tall), QPointF(right, middle + tall))
             self._name(painter, s, colour(theme.ink if s is now else theme.muted), is_now=s is now)
-            if s.ends_level and right - taken > 26:
-                self._word(painter, f"×{s.level}", right, middle + 11, colour(theme.ink))
+            if s.ends_level and right - taken > fine(26):
+                self._word(painter, f"×{s.level}", right, middle + fine(11), colour(theme.ink))
                 taken = right
-        painter.setPen(QPen(colour(theme.panel), 2))
+            if state.lesson.beats[s.beat].asks is not None:
+                ink = theme.ink if s is now else theme.muted
+                self._word(painter, "?", (left + right) / 2, middle + 11, colour(ink))
+        painter.setPen(QPen(colour(theme.panel), fine(2)))
         painter.setBrush(colour(theme.ink))
-        painter.drawEllipse(QPointF(self._x(axis), middle), 7, 7)
+        painter.drawEllipse(QPointF(self._x(axis), middle), fine(7), fine(7))
         if self.hasFocus():
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(QPen(colour(theme.accent), 2))
-            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 3, -1, -3), 6, 6)
+            painter.setPen(QPen(colour(theme.accent), fine(2)))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, fine(3), -1, -fine(3)), fine(6), fine(6))
         painter.end()
 
     def _bar(self, painter: QPainter, left: float, right: float, middle: float, ink: QColor) -> None:
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(ink)
-        painter.drawRect(QRectF(left, middle - 2, max(right - left, 0), 4))
+        painter.drawRect(QRectF(left, middle - fine(2), max(right - left, 0), fine(4)))
 
     def _name(self, painter: QPainter, s: Segment, ink: QColor, *, is_now: bool) -> None:
         """A stage's name over its segment, where all of the lesson's names fit; else only the one that plays."""
@@ -153,20 +160,20 @@ class Track(QWidget):
         left, right = self._x(s.begin), self._x(s.end)
         if not is_now and not self._has_room(face):
             return
-        wide = QFontMetricsF(face).horizontalAdvance(s.name) + 2
+        wide = QFontMetricsF(face).horizontalAdvance(s.name) + fine(2)
         x = min(max((left + right - wide) / 2, 0.0), self.width() - wide)
         painter.setFont(face)
         painter.setPen(ink)
-        painter.drawText(QRectF(x, self.height() / 2 - 24, wide, 16), Qt.AlignmentFlag.AlignCenter, s.name)
+        painter.drawText(QRectF(x, self.height() / 2 - fine(24), wide, fine(16)), Qt.AlignmentFlag.AlignCenter, s.name)
 
     def _has_room(self, face: QFont) -> bool:
         parts, wide = segments(self._session.state.lesson), QFontMetricsF(face).horizontalAdvance
-        return all(wide(s.name) + 6 < self._x(s.end) - self._x(s.begin) for s in parts if s.name)
+        return all(wide(s.name) + fine(6) < self._x(s.end) - self._x(s.begin) for s in parts if s.name)
 
     def _word(self, painter: QPainter, text: str, x: float, top: float, ink: QColor) -> None:
         painter.setFont(type_face(12, QFont.Weight.DemiBold))
         painter.setPen(ink)
-        painter.drawText(QRectF(x - 30, top, 60, 15), Qt.AlignmentFlag.AlignCenter, text)
+        painter.drawText(QRectF(x - fine(30), top, fine(60), fine(15)), Qt.AlignmentFlag.AlignCenter, text)
 
 
 def current(state: State) -> Segment:
@@ -191,7 +198,7 @@ def tool_button(icon_name: str, theme: str, size: int = 32) -> QToolButton:
     """A flat button that keeps the focus where it is unless it is reached with Tab."""
     button = QToolButton()
     button.setIcon(icon(icon_name, theme))
-    button.setIconSize(QSize(size - 12, size - 12))
-    button.setFixedSize(QSize(size, size))
+    button.setIconSize(QSize(px(size - 12), px(size - 12)))
+    button.setFixedSize(QSize(px(size), px(size)))
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     return button

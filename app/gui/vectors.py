@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVB
 from app import boxlab
 from app.gui.choice import Choice
 from app.gui.lattice import Lattice
-from app.gui.look import GRID, type_face
+from app.gui.look import GRID, px, sized, type_face
 from app.gui.mask import MaskTable
 from app.gui.parts import Section
 from app.gui.passes import Passes
@@ -59,8 +59,8 @@ class Vectors(QWidget):
             label.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         inside = QWidget()
         column = QVBoxLayout(inside)
-        column.setContentsMargins(0, GRID // 2, 0, GRID)
-        column.setSpacing(GRID)
+        column.setContentsMargins(0, px(GRID / 2), 0, px(GRID))
+        column.setSpacing(px(GRID))
         for part in (
             self.preset, self.lattice, _row(self.repeat, self.remove), self.facts, self.passes, self.promise,
             self.table, self.basis, self.overlay, self.next, self.picture,
@@ -128,7 +128,7 @@ def _button(name: str, tip: str) -> QPushButton:
     button.setToolTip(tip)
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-    button.setStyleSheet("padding-left: 4px; padding-right: 4px")
+    button.setStyleSheet(sized("padding-left: 4px; padding-right: 4px"))
     return button
 
 
@@ -136,7 +136,7 @@ def _row(*parts: QWidget) -> QWidget:
     found = QWidget()
     row = QHBoxLayout(found)
     row.setContentsMargins(0, 0, 0, 0)
-    row.setSpacing(GRID // 2)
+    row.setSpacing(px(GRID / 2))
     for part in parts:
         row.addWidget(part)
     return found

@@ -10,7 +10,7 @@ from app.draw.compose import in_focus, pointed
 from app.draw.pointed import Pointed, row_of
 from app.draw.theme import NAMES, THEMES
 from app.gui.across import Across
-from app.gui.look import GRID, colour, type_face
+from app.gui.look import GRID, colour, px, type_face
 from app.gui.place import Place
 from app.gui.session import Session
 from app.state import State, level_of
@@ -34,7 +34,7 @@ class Why(QWidget):
         self._words.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._words.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._words.setMinimumHeight(16 * GRID)
+        self._words.setMinimumHeight(px(16 * GRID))
         self._counts = [(QLabel(), QLabel(name)) for name in ("V", "E", "F", "χ")]
         self._level = QLabel()
         for quiet in (self._level, *(name for _, name in self._counts)):
@@ -42,14 +42,14 @@ class Why(QWidget):
         self._about: tuple[object, ...] = ()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(GRID)
+        column.setSpacing(px(GRID))
         column.addWidget(self.across)
         column.addWidget(self._words, 1)
         column.addWidget(self.place)
         column.addWidget(self._level)
         grid = QGridLayout()
-        grid.setHorizontalSpacing(GRID)
-        grid.setVerticalSpacing(4)
+        grid.setHorizontalSpacing(px(GRID))
+        grid.setVerticalSpacing(px(4))
         for k, (number, name) in enumerate(self._counts):
             number.setFont(type_face(16))
             grid.addWidget(name, k // 2, 2 * (k % 2))
@@ -85,13 +85,14 @@ def _explained(state: State, view: View, row: Pointed | None, muted: str) -> str
     stencil = row.stencil
     verb = "tends to" if row.place is not None else "is"
     rows = [
-        f'<tr><td align="right" style="padding-right:12px"><b>{escape(weight)}</b></td>'
-        f'<td style="padding-right:12px; color:{muted}">×</td><td>{escape(points)}</td></tr>'
+        f'<tr><td align="right" style="padding-right:{px(12)}px"><b>{escape(weight)}</b></td>'
+        f'<td style="padding-right:{px(12)}px; color:{muted}">×</td><td>{escape(points)}</td></tr>'
         for weight, points in grouped(stencil)
     ]
     total = sum((w for _, w in stencil.terms), start=0 * stencil.terms[0][1])
     return (
-        f"<p><b>{_named(state, view, row)}</b> {verb} the sum of</p><table cellspacing='2'>{''.join(rows)}</table>"
+        f"<p><b>{_named(state, view, row)}</b> {verb} the sum of</p>"
+        f"<table cellspacing='{px(2)}'>{''.join(rows)}</table>"
         f'<p style="color:{muted}">The weights sum to {escape(spelled(total))}.</p>'
     )
 

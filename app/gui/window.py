@@ -41,7 +41,7 @@ from app.gui.furniture import enter_what_is_typed, seat_of, sit_down, throw_away
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
 from app.gui.laboratory import Laboratory
-from app.gui.look import GRID, colour, dress, icon, line_of, system_theme
+from app.gui.look import GRID, colour, dress, icon, line_of, px, system_theme
 from app.gui.notes import Notes
 from app.gui.opening import Opener
 from app.gui.parts import Section, column
@@ -440,7 +440,7 @@ class Window(QMainWindow):
     def _put_up_corner(self) -> None:
         corner = QWidget(self.menuBar())
         row = QHBoxLayout(corner)
-        row.setContentsMargins(0, 0, GRID // 2, 0)
+        row.setContentsMargins(0, 0, px(GRID / 2), 0)
         row.setSpacing(0)
         for id_ in ("contents", "shown", "present"):
             row.addWidget(self._button(id_, 28))
