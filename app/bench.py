@@ -14,6 +14,7 @@ from lessons.script import Lesson
 from subdivision import Boundary, Mesh, TopologyError, shapes
 from subdivision.catalogue import FAMILIES, Value, suiting
 from subdivision.extraordinary import PULL_RULES, pull_rule
+from subdivision.words import phrase
 
 FIRST = "cube"
 
@@ -64,7 +65,9 @@ def pull(state: State, way: Fraction) -> State:
     """The leading rule goes so far of the way at extraordinary vertices; the same valence stays looked at."""
     rule = lab_in(state).rules[0]
     if rule.family not in PULL_RULES:
-        raise TopologyError(f"{rule.scheme.title} has no pull; let the vertex rule be varied first")
+        raise TopologyError(
+            phrase("{scheme} has no pull; let the vertex rule be varied first", scheme=rule.scheme.title)
+        )
     return choose_parameter(choose(state, valence=valence_of(state)), 0, 0, way)
 
 
@@ -76,7 +79,7 @@ def vary_vertex_rule(state: State) -> State:
     rule, n = lab_in(state).rules[0], valence_of(state)
     found = pull_rule(rule.scheme)
     if found is None:
-        raise TopologyError(f"{rule.scheme.title} is not told by how far a vertex is pulled")
+        raise TopologyError(phrase("{scheme} is not told by how far a vertex is pulled", scheme=rule.scheme.title))
     there = found.pull_of(rule.scheme, n)
     step = FAMILIES[found.family].parameters[0].step
     way = there if isinstance(there, Fraction) else round(float(there) / step) * step
@@ -105,7 +108,7 @@ def compare(state: State) -> State:
     """One pane more: the next scheme that takes the control object."""
     lab = lab_in(state)
     if len(lab.rules) == MOST_PANES:
-        raise TopologyError(f"{MOST_PANES} panes are as many as can be compared")
+        raise TopologyError(phrase("{most} panes are as many as can be compared", most=MOST_PANES))
     families = [family.name for family in suiting(lab.control.topology)]
     free = [name for name in families if name not in {rule.family for rule in lab.rules}] or families
     rule = replace(lab.rules[0], family=free[0], parameters=(), telling="")

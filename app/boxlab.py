@@ -21,6 +21,7 @@ from subdivision.continuity import checked_vectors
 from subdivision.passes import Vector
 from subdivision.schemes import THREE_DIRECTION_LINEAR, THREE_DIRECTION_QUARTIC, ZWART_POWELL
 from subdivision.schemes.box_spline import in_order, other_orders, shortened
+from subdivision.words import phrase
 
 MOST_VECTORS, LONGEST = 24, 9
 """How many vectors a set has, and how far they go along s and t, at most."""
@@ -157,15 +158,19 @@ def _become(state: State, vectors: Vectors, telling: str | None = None) -> State
     try:
         return put(state, other)
     except TopologyError as refusal:
-        raise TopologyError(f"{refusal}; or take the basis function, whose net grows with them") from None
+        raise TopologyError(
+            phrase("{refusal}; or take the basis function, whose net grows with them", refusal=refusal)
+        ) from None
 
 
 def _require(vectors: Vectors) -> None:
     checked_vectors(vectors)
     if len(vectors) > MOST_VECTORS:
-        raise TopologyError(f"{MOST_VECTORS} vectors are as many as can be; remove one first")
+        raise TopologyError(phrase("{most} vectors are as many as can be; remove one first", most=MOST_VECTORS))
     if (longest := max(abs(x) for v in vectors for x in v)) > LONGEST:
-        raise TopologyError(f"a vector goes {LONGEST} steps along s or t at most, not {longest}")
+        raise TopologyError(
+            phrase("a vector goes {most} steps along s or t at most, not {longest}", most=LONGEST, longest=longest)
+        )
 
 
 def _resized(lab: Lab, vectors: Vectors) -> Lab:

@@ -14,12 +14,14 @@ import lessons
 from app.draw.theme import THEMES
 from app.figures import BACKGROUNDS, FORMATS, LEAST, MOST, FigureError
 from app.state import State
+from app.words import tr
 from lessons import own
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, Scheme, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
 from subdivision.exact import Exact, spelled
 from subdivision.schemes import SCHEMES
+from subdivision.words import joined, phrase
 
 NAMES = {s.name: s for s in SCHEMES}
 
@@ -43,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         _bring(options)
         return int(options.run(options) or 0)
     except (TopologyError, files.FileError, Fault) as fault:
-        print(f"subdivision-studio: {fault}", file=sys.stderr)
+        print(f"subdivision-studio: {tr(str(fault))}", file=sys.stderr)
         return 1
     except MemoryError:
         print("subdivision-studio: there is not enough memory for this; choose fewer levels", file=sys.stderr)
@@ -173,7 +175,9 @@ def draw_figures(options: argparse.Namespace) -> None:
             written += 1
     except FigureError as fault:
         raise Fault(str(fault)) from fault
-    print(f"{written} files in {perf_counter() - begin:.1f} s", file=sys.stderr)
+    print(
+        phrase("{written} files in {seconds:.1f} s", written=written, seconds=perf_counter() - begin), file=sys.stderr
+    )
 
 
 def export_files(options: argparse.Namespace) -> None:
@@ -185,7 +189,13 @@ def export_files(options: argparse.Namespace) -> None:
     of = options.of or ("view" if options.step else "lesson" if options.what else "everything")
     try:
         if (chosen := options.format or suffixes.get(out.suffix.lower(), "")) == "":
-            raise Fault(f"{out} does not say in which format: end it in one of {' '.join(suffixes)}, or add --format")
+            raise Fault(
+                phrase(
+                    "{out} does not say in which format: end it in one of {suffixes}, or add --format",
+                    out=out,
+                    suffixes=" ".join(suffixes),
+                )
+            )
         wish = export.Wish(
             chosen, of, options.size, options.background, options.pace, options.level, options.limit
         )  # fmt: skip
@@ -233,7 +243,7 @@ def write_page(options: argparse.Namespace) -> None:
         size = write_page_of(start(chosen, Options(as_caption=options.as_caption)), path)
     except FigureError as fault:
         raise Fault(str(fault)) from fault
-    print(f"{path}: {size / 1000:.0f} kB, opens in any browser")
+    print(phrase("{path}: {size:.0f} kB, opens in any browser", path=path, size=size / 1000))
 
 
 def subdivide_file(options: argparse.Namespace) -> None:
@@ -249,7 +259,9 @@ def subdivide_file(options: argparse.Namespace) -> None:
         fine = Mesh(fine.topology, limit_points(fine, scheme)[: fine.topology.n_vertices])
     files.write(options.output, fine)
     t = fine.topology
-    print(f"{options.output}: {t.n_vertices} vertices, {int((~t.hidden).sum())} faces")
+    print(
+        phrase("{path}: {n} vertices, {faces} faces", path=options.output, n=t.n_vertices, faces=int((~t.hidden).sum()))
+    )
 
 
 def print_stencil(options: argparse.Namespace) -> None:
@@ -263,7 +275,14 @@ def print_stencil(options: argparse.Namespace) -> None:
         head = {"scheme": scheme.name, "valence": options.valence, "point": options.point}
         print(json.dumps({**head, "weights": exact}, indent=2, ensure_ascii=False))
         return
-    print(f"{scheme.title}: {options.point} point at valence {options.valence}")
+    print(
+        phrase(
+            "{scheme}: {point} point at valence {valence}",
+            scheme=scheme.title,
+            point=options.point,
+            valence=options.valence,
+        )
+    )
     grouped = groupby(terms, key=lambda term: term[1])
     rows = [(_listed([name for name, _ in alike]), _written(w)) for w, alike in grouped]
     rows.append(("sum", spelled(sum((w for _, w in terms), Fraction(0)))))
@@ -284,11 +303,18 @@ def print_mask(options: argparse.Namespace) -> None:
         return
     below = max(c.denominator for row in table.rows for c in row)
     width = max(len(str(int(c * below))) for row in table.rows for c in row)
-    print(f"1/{below} times")
+    print(phrase("1/{below} times", below=below))
     for row in table.rows:
         print("  " + " ".join(f"{int(c * below):>{width}}" for c in row))
     print("rows: powers of x from", table.origin[0], "  columns: powers of y from", table.origin[1])
-    print(f"degree {degree(vectors)}, alpha {alpha(vectors)}, continuity C^{smoothness(vectors)}")
+    print(
+        phrase(
+            "degree {degree}, alpha {alpha}, continuity C^{k}",
+            degree=degree(vectors),
+            alpha=alpha(vectors),
+            k=smoothness(vectors),
+        )
+    )
     print(promise(vectors))
 
 
@@ -356,7 +382,7 @@ def _for_export(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--background", choices=BACKGROUNDS, default="theme", help="the theme's own, if not named")
     parser.add_argument(
         "--pace", type=float, default=1.0, metavar="X",
-        help=f"of a film: 2 is twice as fast ({SLOWEST:g} to {FASTEST:g})",
+        help=phrase("of a film: 2 is twice as fast ({least:g} to {most:g})", least=SLOWEST, most=FASTEST),
     )  # fmt: skip
     parser.add_argument("--level", type=_whole, metavar="N", help="of a view's mesh: not the one shown, but level N")
     parser.add_argument("--limit", action="store_true", help="push a mesh's vertices to the limit surface")
@@ -444,10 +470,24 @@ def _turned(chosen: list[Lesson], settings: dict[str, int]) -> list[Lesson]:
         meant = [(knob, each) for knob, each in knobs if knob.name == name]
         for knob, each in meant:
             if not knob.least <= value <= knob.most:
-                raise Fault(f"{name} of {each.id} goes from {knob.least} to {knob.most}, not to {value}")
+                raise Fault(
+                    phrase(
+                        "{name} of {lesson} goes from {least} to {most}, not to {value}",
+                        name=name,
+                        lesson=each.id,
+                        least=knob.least,
+                        most=knob.most,
+                        value=value,
+                    )
+                )
         if not meant:
-            there = ", ".join(f"{knob.name} ({knob.least} to {knob.most}) of {each.id}" for knob, each in knobs)
-            raise Fault(f"there is no knob '{name}' here; " + (f"there are {there}" if there else "there is none"))
+            if not knobs:
+                raise Fault(phrase("there is no knob '{name}' here; there is none", name=name))
+            knob_of = "{name} ({least} to {most}) of {lesson}"
+            there = [phrase(knob_of, name=k.name, least=k.least, most=k.most, lesson=each.id) for k, each in knobs]
+            raise Fault(
+                phrase("there is no knob '{name}' here; there are {there}", name=name, there=joined(", ", there))
+            )
     return [each.turned(**settings) for each in chosen]
 
 
@@ -461,10 +501,23 @@ def _require_room(control: Mesh, scheme: Scheme, levels: int) -> None:
 def _too_deep(levels: int, level: int, faces: int) -> str:
     """What to choose instead of ``levels``, where ``level`` is the first that does not fit."""
     if level == 0:
-        return f"the mesh has {faces:,} faces, and {MOST_FACES:,} are made at most; choose a smaller mesh"
-    until = "" if level == levels else f" at level {level} already"
-    fitting = f"at most {level - 1}, for {MOST_FACES:,} faces are made at most"
-    return f"{levels} levels would make {faces:,} faces{until}; choose fewer levels ({fitting})"
+        return phrase(
+            "the mesh has {faces:,} faces, and {most_faces:,} are made at most; choose a smaller mesh",
+            faces=faces,
+            most_faces=MOST_FACES,
+        )
+    return phrase(
+        "{levels} levels would make {faces:,} faces; choose fewer levels (at most {fitting}, for {most:,} faces are "
+        "made at most)"
+        if level == levels
+        else "{levels} levels would make {faces:,} faces at level {level} already; choose fewer levels (at most "
+        "{fitting}, for {most:,} faces are made at most)",
+        levels=levels,
+        faces=faces,
+        level=level,
+        fitting=level - 1,
+        most=MOST_FACES,
+    )
 
 
 def _listed(names: list[str]) -> str:
@@ -478,7 +531,7 @@ def _written(weight: Exact) -> str:
 def _whole(text: str) -> int:
     number = int(text)
     if number < 0:
-        raise argparse.ArgumentTypeError(f"{text} is negative")
+        raise argparse.ArgumentTypeError(phrase("{text} is negative", text=text))
     return number
 
 
@@ -492,7 +545,9 @@ def _formats(text: str) -> tuple[str, ...]:
     chosen = tuple(part.strip().lower() for part in text.split(",") if part.strip())
     for each in chosen:
         if each not in FORMATS:
-            raise argparse.ArgumentTypeError(f"'{each}' is not one of {', '.join(FORMATS)}")
+            raise argparse.ArgumentTypeError(
+                phrase("'{each}' is not one of {names}", each=each, names=", ".join(FORMATS))
+            )
     if not chosen:
         raise argparse.ArgumentTypeError("name at least one format")
     return chosen
@@ -501,7 +556,14 @@ def _formats(text: str) -> tuple[str, ...]:
 def _size(text: str) -> tuple[int, int]:
     width, _, height = text.lower().partition("x")
     if not (width.isdecimal() and height.isdecimal() and all(LEAST <= int(n) <= MOST for n in (width, height))):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a size such as 1920x1080 ({LEAST} to {MOST} each way)")
+        raise argparse.ArgumentTypeError(
+            phrase(
+                "'{text}' is not a size such as 1920x1080 ({least} to {most} each way)",
+                text=text,
+                least=LEAST,
+                most=MOST,
+            )
+        )
     return int(width), int(height)
 
 
@@ -510,11 +572,15 @@ def _setting(text: str) -> tuple[str, int]:
     try:
         return name.strip(), int(value)
     except ValueError as wrong:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a name and a whole number such as degree=5") from wrong
+        raise argparse.ArgumentTypeError(
+            phrase("'{text}' is not a name and a whole number such as degree=5", text=text)
+        ) from wrong
 
 
 def _vectors(text: str) -> list[tuple[int, ...]]:
     try:
         return [tuple(int(x) for x in pair.split(",")) for pair in text.split()]
     except ValueError as wrong:
-        raise argparse.ArgumentTypeError(f'{text!r} is not a list of integer pairs such as "1,0 0,1 1,1"') from wrong
+        raise argparse.ArgumentTypeError(
+            phrase('{text} is not a list of integer pairs such as "1,0 0,1 1,1"', text=repr(text))
+        ) from wrong

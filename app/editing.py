@@ -18,6 +18,7 @@ from subdivision import Grid, Mesh, Polyline, Topology, TopologyError, editing
 from subdivision.arrays import Floats
 from subdivision.catalogue import suiting
 from subdivision.topology import INFINITELY_SHARP
+from subdivision.words import phrase
 
 Change: TypeAlias = Callable[[Mesh], Mesh]
 
@@ -83,7 +84,12 @@ def replaced_rule(before: State, after: State) -> str:
     if {rule.family for rule in old} & {rule.family for rule in new}:
         return ""
     reason = old[0].scheme.refuses(old[0].bounded(after.lab.control).topology)
-    return f"{old[0].scheme.title} cannot subdivide this: {reason}. {new[0].scheme.title} takes over."
+    return phrase(
+        "{old} cannot subdivide this: {reason}. {new} takes over.",
+        old=old[0].scheme.title,
+        reason=reason,
+        new=new[0].scheme.title,
+    )
 
 
 # -- what is picked ---------------------------------------------------------------------------
@@ -224,7 +230,7 @@ def turn_fan(state: State, by_valence: int, by_rings: int) -> State:
 def _edge_of(state: State, mend: str) -> int:
     picked = state.picked
     if picked is None or picked.kind != "edge":
-        raise TopologyError(f"no edge is picked; {mend}")
+        raise TopologyError(phrase("no edge is picked; {mend}", mend=mend))
     return picked.numbers[-1]
 
 

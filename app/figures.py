@@ -11,6 +11,7 @@ from app.draw.theme import THEMES
 from app.state import Options, State, Stop, at_stop, start, stops
 from lessons.script import Lesson
 from subdivision.files.saving import save
+from subdivision.words import phrase
 
 FORMATS = ("png", "svg", "gif")
 BACKGROUNDS = ("white", "black", "transparent", "theme")
@@ -100,7 +101,11 @@ def write(path: Path, data: bytes) -> Path:
     try:
         save(path, [data])
     except OSError as fault:
-        raise FigureError(f"{path} cannot be written: {fault.strerror or fault}; choose another folder") from fault
+        raise FigureError(
+            phrase(
+                "{path} cannot be written: {reason}; choose another folder", path=path, reason=fault.strerror or fault
+            )
+        ) from fault
     return path
 
 
@@ -165,15 +170,43 @@ def stood_on(picture: Picture, background: str) -> Picture:
 def _checked(formats: Sequence[str], size: tuple[int, int], background: str, theme: str) -> tuple[str, ...]:
     for kind in formats:
         if kind not in FORMATS:
-            raise FigureError(f"figures come as {', '.join(FORMATS[:-1])} or {FORMATS[-1]}, not as {kind}")
+            raise FigureError(
+                phrase(
+                    "figures come as {names} or {last}, not as {kind}",
+                    names=", ".join(FORMATS[:-1]),
+                    last=FORMATS[-1],
+                    kind=kind,
+                )
+            )
     if background and background not in BACKGROUNDS:
-        raise FigureError(f"the background is one of {', '.join(BACKGROUNDS)}, not {background}")
+        raise FigureError(
+            phrase(
+                "the background is one of {names}, not {background}",
+                names=", ".join(BACKGROUNDS),
+                background=background,
+            )
+        )
     if theme and theme not in THEMES:
-        raise FigureError(f"the theme is one of {', '.join(THEMES)}, not {theme}")
+        raise FigureError(phrase("the theme is one of {names}, not {theme}", names=", ".join(THEMES), theme=theme))
     if (words := UNREADABLE.get((theme, background))) is not None:
-        raise FigureError(f"the {theme} theme writes in {words}, which {background} hides: choose background theme")
+        raise FigureError(
+            phrase(
+                "the {theme} theme writes in {words}, which {background} hides: choose background theme",
+                theme=theme,
+                words=words,
+                background=background,
+            )
+        )
     if not all(LEAST <= n <= MOST for n in size):
-        raise FigureError(f"a figure has {LEAST} to {MOST} pixels each way, not {size[0]}x{size[1]}")
+        raise FigureError(
+            phrase(
+                "a figure has {least} to {most} pixels each way, not {width}x{height}",
+                least=LEAST,
+                most=MOST,
+                width=size[0],
+                height=size[1],
+            )
+        )
     return tuple(dict.fromkeys(formats))
 
 
@@ -182,5 +215,7 @@ def _folder(folder: Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as fault:
         reason = fault.strerror or fault
-        raise FigureError(f"the folder {folder} cannot be made: {reason}; choose another folder") from fault
+        raise FigureError(
+            phrase("the folder {folder} cannot be made: {reason}; choose another folder", folder=folder, reason=reason)
+        ) from fault
     return folder

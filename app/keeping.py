@@ -1,7 +1,8 @@
 """A state as text that can be read, kept in a file, and restored exactly.
 
 Version 1 is a JSON table: the lesson and its knobs, the place in it, what is pointed at, what was dragged, from where
-it is seen, the options of the picture, and the laboratory.  What passes is not kept: playing, and what is picked.
+it is seen, the options of the picture, what was predicted, and the laboratory.  What passes is not kept: playing, and
+what is picked.  Beats are numbered as if nothing were asked, so that a lesson may ask more one day.
 
 Floats are written so that they are read as the same floats.  Reading believes nothing and follows nothing.  A name
 that this version does not know is refused, since what it stands for would be missing from the picture; knobs and
@@ -19,15 +20,17 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from app import asking
 from app.boxlab import LONGEST, MOST_VECTORS
 from app.draw.pointed import ACROSS
 from app.draw.surface import SHOWS
 from app.draw.theme import THEMES
 from app.lab import LABORATORY, MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, lesson_of
-from app.state import VALENCES, Edits, Options, Spot, State, settle
+from app.state import VALENCES, Edits, Options, Prediction, Spot, State, settle
 from app.strict import Entry, KeepingError, parsed
 from app.turn import FARTHEST, NEAREST, Turn
 from lessons import all_lessons
+from lessons.questions import Where
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, Polyline, Topology, TopologyError, shapes
 from subdivision.catalogue import FAMILIES, Parameter, Value, scheme
@@ -36,12 +39,13 @@ from subdivision.files.faults import Fault, fault_of_system, printable
 from subdivision.files.saving import save
 from subdivision.rows import Grid
 from subdivision.topology import INFINITELY_SHARP
+from subdivision.words import phrase
 
 FORMAT = "subdivision-studio session"
 VERSION = 1
 SUFFIX = ".subdivision"
 
-OF_THE_ROOM = ("presenting", "blank", "reduced_motion")
+OF_THE_ROOM = ("presenting", "blank", "reduced_motion", "language")
 """Options that belong to where and who one is, not to the picture: they stay as they are."""
 
 CHOICES: Mapping[str, Mapping[str, Any]] = {"theme": THEMES, "across": ACROSS, "surface_shows": SHOWS}
@@ -78,16 +82,26 @@ def document(state: State) -> Table:
         "version": VERSION,
         "lesson": state.lesson.id,
         "knobs": state.lesson.settings,
-        "place": {"beat": state.beat, "at": float(state.at)},
+        "place": _kept_place(state),
         "dragged": [[int(vertex), [float(x) for x in to]] for vertex, to in state.edits],
         "turn": {each.name: float(getattr(state.turn, each.name)) for each in fields(Turn)},
         "options": {name: getattr(state.options, name) for name in _options()},
     }
     if state.focus is not None:
         found["pointed at"] = {each.name: int(getattr(state.focus, each.name)) for each in fields(Spot)}
+    if state.predicted:
+        found["predicted"] = [p if isinstance(p, int) else [float(x) for x in p] for p in state.predicted]
     if state.lab is not None:
         found["laboratory"] = _laboratory(state.lab)
     return found
+
+
+def _kept_place(state: State) -> Table:
+    told = state.lesson.asking(False).beats
+    if asking.is_open(state):
+        beat = asking.answer(state)
+        return {"beat": told.index(beat), "at": float(beat.start), "question": True}
+    return {"beat": told.index(state.now), "at": float(state.at)}
 
 
 def write(path: Path, state: State) -> Path:
@@ -149,11 +163,17 @@ def _object(control: Mesh) -> Table:
     t, points = control.topology, control.points
     if len(points) > MOST_POINTS or len(t.origin) > MOST_CORNERS:
         raise KeepingError(
-            f"the object in the laboratory has {len(points):,} vertices, and a session keeps at most {MOST_POINTS:,}; "
-            "open it from its own file again"
+            phrase(
+                "the object in the laboratory has {n:,} vertices, and a session keeps at most {most:,}; "
+                "open it from its own file again",
+                n=len(points),
+                most=MOST_POINTS,
+            )
         )
     if not (np.abs(points) <= FARTHEST_POINT).all():
-        raise KeepingError(f"the object in the laboratory goes beyond {FARTHEST_POINT:g}; scale it down")
+        raise KeepingError(
+            phrase("the object in the laboratory goes beyond {most:g}; scale it down", most=FARTHEST_POINT)
+        )
     if isinstance(t, Polyline):
         return {"polygon": {"closed": t.closed, "points": points.tolist()}}
     if isinstance(t, Grid):
@@ -223,7 +243,7 @@ def read(path: Path, options: Options | None = None) -> State:
         if path.exists() and not path.is_file():
             raise Fault("it is not an ordinary file", "choose one").in_file(path)
         if path.stat().st_size > MOST_BYTES:
-            raise Fault(f"it is larger than {MOST_BYTES >> 20} MB", "choose a session").in_file(path)
+            raise Fault(phrase("it is larger than {most} MB", most=MOST_BYTES >> 20), "choose a session").in_file(path)
         return restored(path.read_bytes(), options)
     except KeepingError as fault:
         raise KeepingError(f"{printable(path.name)}, {fault}") from None
@@ -242,15 +262,18 @@ def restored(text: str | bytes, options: Options | None = None) -> State:
         For anything that is not such a text, or leads out of its lesson.
     """
     if len(text) > MOST_BYTES:
-        raise KeepingError(f"this is larger than {MOST_BYTES >> 20} MB, too large for a session; choose another one")
+        raise KeepingError(
+            phrase("this is larger than {most} MB, too large for a session; choose another one", most=MOST_BYTES >> 20)
+        )
     table = _recognised(parsed(text))
     lab = _lab(table["laboratory"]) if "laboratory" in table else None
-    lesson = _lesson(table["lesson"], table["knobs"], lab, table)
+    wanted = _picture(table["options"], options or Options())
+    lesson = _lesson(table["lesson"], table["knobs"], lab, table).asking(wanted.asking)
     beat, at = _place(table["place"], lesson)
     state = State(
-        lesson, beat, at, edits=_edits(table["dragged"], lesson), lab=lab, turn=_turn(table["turn"]),
-        options=_picture(table["options"], options or Options()),
-    )  # fmt: skip
+        lesson, beat, at, edits=_edits(table["dragged"], lesson), lab=lab, turn=_turn(table["turn"]), options=wanted
+    )
+    state = replace(state, predicted=_predicted(table["predicted"], state)) if "predicted" in table else state
     return replace(state, focus=_spot(table["pointed at"], state)) if "pointed at" in table else state
 
 
@@ -263,14 +286,24 @@ def taken_up(state: State, other: State) -> State:
 def _recognised(entry: Entry) -> Mapping[str, Entry]:
     value = entry.value
     if not isinstance(value, dict) or value.get("format") != FORMAT:
-        raise KeepingError(f"this is no session: it does not say 'format': '{FORMAT}'; choose a {SUFFIX} file")
+        raise KeepingError(
+            phrase(
+                "this is no session: it does not say 'format': '{format}'; choose a {suffix} file",
+                format=FORMAT,
+                suffix=SUFFIX,
+            )
+        )
     version = value.get("version")
     if type(version) is int and version > VERSION:
-        raise KeepingError(f"version: it was made by a newer program (version {version % 10**6}); update this one")
+        raise KeepingError(
+            phrase(
+                "version: it was made by a newer program (version {version}); update this one", version=version % 10**6
+            )
+        )
     if version != VERSION or type(version) is not int:
-        raise KeepingError(f"version: there is no such version; write {VERSION}")
+        raise KeepingError(phrase("version: there is no such version; write {version}", version=VERSION))
     names = ("format", "version", "lesson", "knobs", "place", "dragged", "turn", "options")
-    return entry.table(names, may=("pointed at", "laboratory"))
+    return entry.table(names, may=("pointed at", "predicted", "laboratory"))
 
 
 def _lesson(entry: Entry, knobs: Entry, lab: Lab | None, table: Mapping[str, Entry]) -> Lesson:
@@ -281,7 +314,9 @@ def _lesson(entry: Entry, knobs: Entry, lab: Lab | None, table: Mapping[str, Ent
         return _told(table["laboratory"], lab)
     lessons = {each.id: each for each in all_lessons()}
     if not isinstance(entry.value, str) or entry.value not in lessons:
-        raise entry.fault(f"there is no lesson '{printable(str(entry.value)[:60])}'; choose another, or update")
+        raise entry.fault(
+            phrase("there is no lesson '{name}'; choose another, or update", name=printable(str(entry.value)[:60]))
+        )
     lesson = lessons[entry.value]
     limits = {knob.name: (knob.least, knob.most) for knob in lesson.knobs}
     set_ = {name: each.whole(*limits[name]) for name, each in knobs.table((), may=limits).items()}
@@ -297,10 +332,24 @@ def _told(entry: Entry, lab: Lab) -> Lesson:
 
 
 def _place(entry: Entry, lesson: Lesson) -> tuple[int, float]:
-    place = entry.table(("beat", "at"))
-    number = place["beat"].whole(0, len(lesson.beats) - 1)
-    beat = lesson.beats[number]
-    return number, place["at"].number(beat.start, beat.stop)
+    place, told = entry.table(("beat", "at"), may=("question",)), lesson.asking(False).beats
+    beat = told[place["beat"].whole(0, len(told) - 1)]
+    number, at = lesson.beats.index(beat), place["at"].number(beat.start, beat.stop)
+    if "question" not in place or not place["question"].flag():
+        return number, at
+    if not number or lesson.beats[number - 1].asks is None:
+        raise place["question"].fault("nothing is asked there; take it out, or let 'asking' be true")
+    return number - 1, lesson.beats[number - 1].start
+
+
+def _predicted(entry: Entry, state: State) -> tuple[Prediction, ...]:
+    """Places where a point was asked for, else the number of one answer."""
+    question = asking.question(state)
+    if question is None:
+        raise entry.fault("nothing is asked there; take it out")
+    if isinstance(question, Where):
+        return tuple(_point(each) for each in entry.rows(1, asking.MOST))
+    return tuple(each.whole(0, len(question.answers) - 1) for each in entry.rows(1, 1))
 
 
 def _edits(entry: Entry, lesson: Lesson) -> Edits:
@@ -310,7 +359,7 @@ def _edits(entry: Entry, lesson: Lesson) -> Edits:
         vertex, to = each.rows(2, 2)
         number = vertex.whole(0, most - 1)
         if number in found:
-            raise each.fault(f"vertex {number} stands here twice; take one out")
+            raise each.fault(phrase("vertex {number} stands here twice; take one out", number=number))
         found[number] = _point(to)
     return tuple(found.items())
 
@@ -364,7 +413,9 @@ def _rule(entry: Entry, control: Mesh) -> Rule:
     family = FAMILIES[table["family"].one_of(FAMILIES)]
     given = table["parameters"].rows(most=len(family.parameters))
     if given and len(given) < len(family.parameters):
-        raise table["parameters"].fault(f"{family.title} takes {len(family.parameters)}; write all of them, or none")
+        raise table["parameters"].fault(
+            phrase("{scheme} takes {n}; write all of them, or none", scheme=family.title, n=len(family.parameters))
+        )
     values = tuple(_value(each, p) for each, p in zip(given, family.parameters, strict=False))
     boundary = Boundary(table["boundary"].one_of([b.value for b in Boundary]))
     try:
@@ -391,7 +442,14 @@ def _value(entry: Entry, parameter: Parameter) -> Value:
     if not FRACTION.fullmatch(entry.words()):
         raise entry.fault("this is no fraction; write one such as 3/16")
     if not parameter.least <= (value := Fraction(entry.value)) <= parameter.most:
-        raise entry.fault(f"{parameter.name} goes from {parameter.least} to {parameter.most}; write one between")
+        raise entry.fault(
+            phrase(
+                "{name} goes from {least} to {most}; write one between",
+                name=parameter.name,
+                least=parameter.least,
+                most=parameter.most,
+            )
+        )
     return value
 
 
@@ -428,7 +486,15 @@ def _net(entry: Entry) -> Mesh:
     wrap_s, wrap_t = (each.flag() for each in table["wrapped"].rows(2, 2))
     points = _points(table["points"])
     if len(points) != n_s * n_t:
-        raise table["points"].fault(f"a net of {n_s} by {n_t} has {n_s * n_t} points, not {len(points)}; mend the size")
+        raise table["points"].fault(
+            phrase(
+                "a net of {n_s} by {n_t} has {n} points, not {found}; mend the size",
+                n_s=n_s,
+                n_t=n_t,
+                n=n_s * n_t,
+                found=len(points),
+            )
+        )
     return Mesh(Grid(n_s, n_t, wrap_s, wrap_t, table["diagonal"].flag()), np.array(points))
 
 
@@ -446,7 +512,7 @@ def _mesh(entry: Entry) -> Mesh:
         a, b, sharpness = each.rows(3, 3)
         pair = frozenset((a.whole(0, last), b.whole(0, last)))
         if pair not in number:
-            raise each.fault(f"there is no edge between {a.value} and {b.value}; take it out")
+            raise each.fault(phrase("there is no edge between {a} and {b}; take it out", a=a.value, b=b.value))
         edges[number[pair]] = sharpness.number(0, INFINITELY_SHARP)
     for each in table["sharp vertices"].rows(most=len(points)):
         vertex, sharpness = each.rows(2, 2)

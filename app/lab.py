@@ -11,6 +11,7 @@ from subdivision.catalogue import FAMILIES, Value, Vectors, scheme
 from subdivision.passes import Vector, spelled
 from subdivision.rows import Grid
 from subdivision.schemes.box_spline import averaged, in_order, other_orders, shortened
+from subdivision.words import joined, phrase, plural
 
 LABORATORY = "laboratory"
 SECTION = "Laboratory"
@@ -26,12 +27,14 @@ COMFORT = 20_000
 """... and what is played well: as many a new control object is given, unless more are asked for."""
 
 SENTENCES = {
-    "topology": "New topology: a point on every edge, {and_faces}smaller faces between them. Nothing moves.",
+    "topology": "New topology: a point on every edge, smaller faces between them. Nothing moves.",
+    "topology with face points": "New topology: a point on every edge, a point on every face, smaller faces between "
+    "them. Nothing moves.",
     "face points": "A face point in every face: the mean of its corners.",
     "edge points": "An edge point on every edge.",
     "vertex points": "Every old vertex moves to its vertex point.",
     "connect": "Connect the points: the new topology.",
-    "centroids": "Mark the centroids: the {{centroid}} helpers, not vertices.",
+    "centroids": "Mark the centroids: the {centroid} helpers, not vertices.",
     "geometry": "New geometry: every vertex moves to the centroid of the centroids around it.",
     "split": "Split: write every point twice. Nothing moves.",
     "quadruple": "Split: write every point four times. Nothing moves.",
@@ -226,9 +229,9 @@ def _apart(a: Mesh, b: Mesh) -> str:
 def _on_the_way(a: Mesh, b: Mesh) -> str:
     """While some passes are still to come: how far apart, or of which shapes, the two nets are."""
     if a.topology == b.topology:
-        return f"on the way: {difference(a, b)}"
+        return phrase("on the way: {difference}", difference=difference(a, b))
     shapes = (f"{t.n_s} × {t.n_t}" for t in (a.topology, b.topology) if isinstance(t, Grid))
-    return f"on the way: {' and '.join(shapes)} points"
+    return phrase("on the way: {shapes} points", shapes=" and ".join(shapes))
 
 
 def _stretch(t: Trace, level: int, k: int, n: int) -> tuple[int, int]:
@@ -239,34 +242,39 @@ def _stretch(t: Trace, level: int, k: int, n: int) -> tuple[int, int]:
 
 def _title(rule: Rule) -> str:
     if rule.vectors and rule.told != "stencils":
-        return f"average {', '.join(map(spelled, rule.passes))}" if rule.passes else "quadruple only"
-    boundary = f", {rule.boundary.value.replace('-', ' ')}" if rule.boundary is not Boundary.EDGE else ""
-    until = f", to level {rule.until}" if rule.until else ""
-    return f"{rule.scheme.title}: {rule.told}{boundary}{until}"
+        passes = ", ".join(map(spelled, rule.passes))
+        return phrase("average {passes}", passes=passes) if passes else "quadruple only"
+    boundary = [rule.boundary.value.replace("-", " ")] if rule.boundary is not Boundary.EDGE else []
+    until = [phrase("to level {level}", level=rule.until)] if rule.until else []
+    told = phrase("{scheme}: {telling}", scheme=rule.scheme.title, telling=rule.told)
+    return joined(", ", [told, *boundary, *until])
 
 
 def _opening(lab: Lab, told: Trace) -> str:
     t = told.control.topology
-    faces = f", {t.n_faces:,} faces" if t.n_faces else ""
-    extraordinary = int(t.extraordinary.sum()) if isinstance(t, Topology) else 0
-    special = f"; {extraordinary:,} extraordinary" if isinstance(t, Topology) else ""
-    levels = f"{lab.levels} level{'s' * (lab.levels != 1)}"
-    limit = "" if lab.levels else " One level would be too many faces to play."
-    return f"{t.n_vertices:,} vertices{faces}{special}. {told.scheme.title}, {levels}.{limit}"
+    counts = [plural("{n:,} vertex", "{n:,} vertices", t.n_vertices, n=t.n_vertices)]
+    counts += [plural("{n:,} face", "{n:,} faces", t.n_faces, n=t.n_faces)] if t.n_faces else []
+    found = joined(", ", counts)
+    if isinstance(t, Topology):
+        found = phrase("{counts}; {n:,} extraordinary", counts=found, n=int(t.extraordinary.sum()))
+    levels = plural("{n} level", "{n} levels", lab.levels, n=lab.levels)
+    said = phrase("{counts}. {scheme}, {levels}.", counts=found, scheme=told.scheme.title, levels=levels)
+    return said if lab.levels else joined(" ", [said, "One level would be too many faces to play."])
 
 
 def _said(stage: Stage, level: int) -> str:
     has_face_points = bool((stage.roles[stage.born] == Role.FACE).any())
-    sentence = SENTENCES.get(stage.name, _named(stage)).format(
-        and_faces="a point on every face, " if has_face_points else ""
-    )
-    is_new_mesh = stage.name in ("topology", "connect") and stage.topology.n_faces
-    faces = f" {stage.topology.n_faces:,} faces." if is_new_mesh else ""
-    return f"{'Again. ' if level else ''}{sentence}{faces}"
+    name = "topology with face points" if stage.name == "topology" and has_face_points else stage.name
+    faces = stage.topology.n_faces if stage.name in ("topology", "connect") else 0
+    return joined(" ", [
+        *([phrase("Again.")] if level else []),
+        SENTENCES.get(name) or _named(stage),
+        *([plural("{n:,} face.", "{n:,} faces.", faces, n=faces)] if faces else []),
+    ])  # fmt: skip
 
 
 def _named(stage: Stage) -> str:
     """What the name of a stage says, as a sentence."""
-    if (direction := stage.name.removeprefix("average ")) != stage.name:
-        return f"Average along {direction}: every point goes half way to the next one there."
-    return f"{stage.name[:1].upper()}{stage.name[1:]}."
+    if (way := stage.name.removeprefix("average ")) != stage.name:
+        return phrase("Average along {direction}: every point goes half way to the next one there.", direction=way)
+    return phrase("{name:sentence}", name=stage.name)

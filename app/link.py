@@ -9,6 +9,7 @@ import zlib
 from app.keeping import document, restored
 from app.state import Options, State
 from app.strict import KeepingError
+from subdivision.words import phrase
 
 SCHEME = "subdivision-studio:"
 HEAD = f"{SCHEME}//session/"
@@ -55,10 +56,10 @@ def followed(text: str, options: Options | None = None) -> State:
         If it is none of ours, or has not come whole.
     """
     if len(text) > 2 * MOST_LETTERS:
-        raise KeepingError(f"a link has at most {MOST_LETTERS:,} letters; copy it again")
+        raise KeepingError(phrase("a link has at most {most:,} letters; copy it again", most=MOST_LETTERS))
     word = re.sub(r"\s", "", text)
     if not word.lower().startswith(HEAD):
-        raise KeepingError(f"this is no link of this program; it begins with {HEAD}")
+        raise KeepingError(phrase("this is no link of this program; it begins with {head}", head=HEAD))
     return restored(_unpacked(word[len(HEAD) :]), options)
 
 

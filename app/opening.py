@@ -15,6 +15,7 @@ from app.link import followed, is_link
 from app.state import State
 from subdivision import Mesh, files
 from subdivision.files.faults import printable
+from subdivision.words import phrase
 
 OPENABLE = (*files.READABLE, SUFFIX)
 """Suffixes of what can be opened."""
@@ -50,8 +51,13 @@ def _require_near(mesh: Mesh, path: Path) -> None:
     farthest = float(np.abs(mesh.points).max(initial=0.0))
     if farthest > FARTHEST:
         raise files.FileError(
-            f"{printable(path.name)}: a coordinate is {farthest:.3g}, too far away to be drawn; "
-            f"scale the mesh down to {FARTHEST:g} at most"
+            phrase(
+                "{name}: a coordinate is {farthest:.3g}, too far away to be drawn; scale the mesh down "
+                "to {most:g} at most",
+                name=printable(path.name),
+                farthest=farthest,
+                most=FARTHEST,
+            )
         )
 
 

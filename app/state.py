@@ -85,6 +85,8 @@ class Options:
     theme: str = "light"
     language: str = "en"
     """That of the words on the picture and round it."""
+    language: str = "en"
+    """That of the words on the picture and round it."""
     speed: float = 1.0
     through: bool = False
     asking: bool = False

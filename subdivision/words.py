@@ -1,5 +1,6 @@
 """Sentences that remember how they were made, so that they can be said in another language."""
 
+from collections.abc import Iterable
 from typing import Any
 
 
@@ -53,6 +54,16 @@ def plural(one: str, many: str, number: int, **values: Any) -> Phrase:
     ('1 edge', '3 edges')
     """
     return Phrase(one, values, many, number)
+
+
+def joined(separator: str, parts: Iterable[str]) -> Phrase:
+    """Several texts in a row, each of them said in the other language by itself.
+
+    >>> joined("   ", ["degree 3", "level 2"])
+    'degree 3   level 2'
+    """
+    values = {f"part{k}": part for k, part in enumerate(parts)}
+    return Phrase(separator.join("{" + name + "}" for name in values), values)
 
 
 def filled(template: str, values: dict[str, Any]) -> str:

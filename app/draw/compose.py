@@ -15,11 +15,14 @@ from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
 from app.draw.pointed import Pointed, row_of
 from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
 from app.draw.selected import is_pickable, selected
+from app.draw.spoken import translated
 from app.draw.theme import NAMES, Theme, theme_of
 from app.state import Spot, State, level_of
+from app.words import speaking, tr
 from lessons.script import Beat, Kind, View
 from subdivision import Mesh, Polyline, Role, TopologyError
 from subdivision.arrays import Floats
+from subdivision.words import joined, phrase
 
 WITH_MATRIX = 0.56
 """The part of the width that is left to the views beside the matrices."""
@@ -35,7 +38,12 @@ PYRAMID, ARRAY = 1.8, 1.4
 
 
 def compose(state: State) -> Picture:
-    """The picture of a state."""
+    """The picture of a state, in its language."""
+    with speaking(state.options.language):
+        return translated(_composed(state))
+
+
+def _composed(state: State) -> Picture:
     theme, beat = dressed(state), state.now
     rects = _rects(beat)
     found = [_content(state, view, theme, rect[2] * rect[3]) for view, rect in zip(beat.views, rects, strict=True)]
@@ -97,7 +105,7 @@ def dressed(state: State) -> Theme:
 
 def said(state: State, beat: Beat) -> str:
     """The caption of a beat of the lesson, in which colours are called what they are."""
-    return beat.text.format_map(dressed(state).words)
+    return tr(beat.text).format_map({role: tr(colour) for role, colour in dressed(state).words.items()})
 
 
 def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
@@ -208,11 +216,11 @@ def _share(view: View) -> float:
 
 def _corner(state: State) -> str:
     """Knobs, level and counts; the counts only where all panes show the same control object at the same place."""
-    turned = [f"{knob.label} {value}" for knob, value in zip(state.lesson.knobs, state.lesson.values, strict=True)]
+    turned = [joined(" ", (knob.label, str(value))) for knob, value in zip(state.lesson.knobs, state.lesson.values, strict=True)]
     lead = state.now.lead
     is_one = all(v.trace is lead.trace and (v.start, v.stop) == (lead.start, lead.stop) for v in state.now.views)
     if lead.kind is Kind.STENCIL or not is_one:
-        return "   ".join(turned)
+        return joined("   ", turned)
     t = state.trace(lead).topology_at(int(lead.at(state.progress)))
     parts = [f"V {t.n_vertices}", f"E {t.n_edges}"] + ([f"F {t.n_faces}", f"χ {t.euler}"] if t.n_faces else [])
-    return "   ".join([*turned, f"level {level_of(state)}", "  ".join(parts)])
+    return joined("   ", [*turned, phrase("level {level}", level=level_of(state)), "  ".join(parts)])

@@ -22,6 +22,7 @@ from subdivision.arrays import Floats
 from subdivision.exact import spelled
 from subdivision.passes import as_grid
 from subdivision.stage import Stencil
+from subdivision.words import phrase
 
 WIDE, TALL, FLAT = 0.94, 0.84, 0.72
 """Width of a box, its height in an array, and in a pyramid, where strokes need room: in cells."""
@@ -186,7 +187,8 @@ def _pyramid(told: _Told, at: float) -> Diagram:
         shown = _filled(told.stages[k].n_points, at - k) if k else np.ones(told.stages[k].n_points)
         boxes.extend(_row(told, k, at, shown))
         links.extend(_strokes(told, k, shown))
-        name = f"average\u00a0{k}, {times(rows(told.stages[: k + 1])[1])}" if k else "split"
+        every = times(rows(told.stages[: k + 1])[1])
+        name = phrase("average\u00a0{k}, {times}", k=k, times=every) if k else "split"
         notes.append(Note(k / 2 - 0.6, -k, name, told.theme.muted, "right", float(shown[0])))
     cells = (-1.6, 0.5 - len(told.stages), told.stages[0].n_points - 0.45, 0.5)
     links.sort(key=lambda link: link.width)  # what is lit lies over the rest
@@ -239,8 +241,9 @@ def _array(told: _Told, at: float) -> Diagram:
 
 def _compass(height: float, below: int, theme: Theme) -> Note:
     """Which way s and t run, and what every box is multiplied with."""
-    scale = f"every box {times(below)}     " if below > 1 else ""
-    return Note(0, height / 2 + 0.22, scale + "s →   t ↑", theme.muted, "center")
+    way = "s →   t ↑"
+    words = phrase("every box {times}     {way}", times=times(below), way=way) if below > 1 else way
+    return Note(0, height / 2 + 0.22, words, theme.muted, "center")
 
 
 def _sliding(told: _Told, stages: tuple[Stage, ...], t: float) -> list[Box]:

@@ -17,6 +17,7 @@ from app.state import Spot, State
 from lessons.script import View
 from subdivision import Topology, TopologyError, Trace
 from subdivision.measure import normal_spread
+from subdivision.words import phrase
 
 LEAST = 1e-12
 """Less than this, relative to the size of the control object, or in degrees, is none: the plot ends before it."""
@@ -73,15 +74,14 @@ def to_limit(trace: Trace) -> Course:
             way = stage.operator.apply(trace.points[k]) - trace.points[k][stage.carries]
             found.append(float(np.sqrt((way * way).sum(axis=1)).max(initial=0.0)))
     except TopologyError as reason:
-        words = str(reason)
-        return Course(title, refusal=f"{words[:1].upper()}{words[1:]}{'' if words.endswith('.') else '.'}")
+        return Course(title, refusal=phrase("{reason:sentence}", reason=str(reason)))
     return Course(title, tuple(found))
 
 
 @lru_cache(maxsize=64)
 def spread(trace: Trace, vertex: int, level: int) -> Course:
     """The smoothness probe at a vertex, from the level where it has that number on."""
-    title, found, at = f"Angle between normals at v{vertex}", list[float](), vertex
+    title, found, at = phrase("Angle between normals at v{vertex}", vertex=vertex), list[float](), vertex
     ends = _ends(trace)
     for here, after in zip(ends[level:], [*ends[level + 1 :], None], strict=True):
         found.append(normal_spread(trace.mesh_at(here), at))
@@ -159,7 +159,9 @@ def said_rate(rate: float) -> str:
     """A rate in words."""
     if abs(rate - 1) < 0.005:
         return "stays as it is"
-    return f"falls by {rate:.2f} a level" if rate > 1 else f"grows by {1 / rate:.2f} a level"
+    if rate > 1:
+        return phrase("falls by {rate:.2f} a level", rate=rate)
+    return phrase("grows by {rate:.2f} a level", rate=1 / rate)
 
 
 def spelled(value: float, course: Course) -> str:

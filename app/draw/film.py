@@ -18,6 +18,7 @@ from app.draw.picture import Picture
 from app.draw.raster import Pixels, image
 from app.draw.seen import seen
 from app.state import State, Stop, at_stop, first, forward, segments, settle
+from subdivision.words import phrase
 
 RATE, FINE = 15, 30
 """Pictures a second: of a GIF, and of an MP4."""
@@ -133,7 +134,12 @@ def film(
         if encoder.wait() != 0:
             said.seek(0)
             reason = said.read().decode(errors="replace").strip().rpartition("\n")[2]
-            raise FilmError(f"ffmpeg could not write the film: {reason or 'it gave no reason'}; try another folder")
+            raise FilmError(
+                phrase(
+                    "ffmpeg could not write the film: {reason}; try another folder",
+                    reason=reason or "it gave no reason",
+                )
+            )
 
 
 class FilmError(Exception):

@@ -8,6 +8,7 @@ from app.draw.picture import Box, Diagram, Link, Note
 from app.draw.theme import Theme, mixed
 from subdivision.continuity import Mask, alpha, degree, mask, smoothness
 from subdivision.passes import Vector
+from subdivision.words import phrase
 
 ARROW, RULE, AXIS = 4.5, 1.4, 2.4
 """Strokes in logical points: an arrow, a line of the lattice, an axis."""
@@ -57,7 +58,12 @@ def facts(vectors: tuple[Vector, ...]) -> str:
     """Degree, alpha and continuity in a few words."""
     k = smoothness(vectors)
     continuity = f"$C^{{{k}}}$" if k >= 0 else "the limit jumps"
-    return f"degree {degree(vectors)}    alpha {alpha(vectors)}    {continuity}"
+    return phrase(
+        "degree {degree}    alpha {alpha}    {continuity}",
+        degree=degree(vectors),
+        alpha=alpha(vectors),
+        continuity=continuity,
+    )
 
 
 def _ruled(far: int, theme: Theme) -> Iterator[Link]:
@@ -89,7 +95,7 @@ def _counted(vectors: tuple[Vector, ...], theme: Theme) -> Iterator[Note]:
 
 def _facts(vectors: tuple[Vector, ...], table: Mask, far: int, theme: Theme) -> tuple[Note, ...]:
     below = over_one(table)[1]
-    every = f"mask, every box ×\u00a01/{below}" if below > 1 else "mask"
+    every = phrase("mask, every box ×\u00a01/{below}", below=below) if below > 1 else "mask"
     return (
         Note(0, far + 1.1, facts(vectors), theme.ink, "center"),
         Note(0, far + BETWEEN - 0.5, every, theme.muted, "center"),

@@ -10,6 +10,7 @@ from app.draw.theme import Theme
 from subdivision import Scheme, Stage, Topology, TopologyError, Trace
 from subdivision.limit import levels_to_settle, limit_stage
 from subdivision.rows import Connectivity
+from subdivision.words import phrase
 
 LIMIT_POINT = "limit point"
 """Name of its markers."""
@@ -55,7 +56,11 @@ def _require_quick(scheme: Scheme, topology: Connectivity) -> None:
         levels = levels_to_settle(scheme, topology)
         if levels > 1 and (faces := scheme.faces_after(topology, levels)) > MOST_FACES:
             raise TopologyError(
-                f"sharp edges take {levels} more levels to wear off, {faces:,} faces: no limit is shown before that"
+                phrase(
+                    "sharp edges take {levels} more levels to wear off, {faces:,} faces: no limit is shown before that",
+                    levels=levels,
+                    faces=faces,
+                )
             )
 
 
@@ -87,7 +92,7 @@ def limit_or_refusal(trace: Trace, at: float) -> tuple[Trace | None, str]:
         return at_limit(trace, int(at)), ""
     except TopologyError as reason:
         words = str(reason)
-        return None, f"{words[:1].upper()}{words[1:]}{'' if words.endswith('.') else '.'}"
+        return None, phrase("{reason:sentence}", reason=words)
 
 
 def marked(made: Scene, trace: Trace, theme: Theme) -> Scene:

@@ -15,6 +15,7 @@ from app.draw.theme import Theme, mixed
 from app.state import Spot
 from subdivision import Step, Trace
 from subdivision.arrays import Floats, Indices
+from subdivision.words import phrase
 
 MOST = 4000
 """More marks than this are a grey plane."""
@@ -37,10 +38,10 @@ def matrices(trace: Trace, at: float, theme: Theme, spot: Spot | None) -> Diagra
     factors = [stage.matrix for stage in reversed(stages)]
     product = _product(trace, begin, k)
     shown = [product, *factors] if len(factors) > 1 else factors
-    names = [f"{stage.name}" for stage in reversed(stages)]
+    names = [stage.name for stage in reversed(stages)]
     titles = ["product", *names] if len(factors) > 1 else names
     if sum(m.nnz for m in shown) > MOST:
-        words = f"{sum(m.nnz for m in shown):,} weights: too many to tell apart. Go to a lower level."
+        words = phrase("{n:,} weights: too many to tell apart. Go to a lower level.", n=sum(m.nnz for m in shown))
         return Diagram((-6, -2, 6, 2), notes=(Note(0, 0, words, theme.muted, "center"),))
     rows = _rows(trace, begin, k, spot, len(factors) > 1)
     return _drawn(shown, titles, rows, [k, *range(k, begin, -1)] if len(factors) > 1 else [k], theme)
@@ -76,7 +77,14 @@ def _drawn(
         boxes.append(frame)
         boxes.extend(_strip(x, y, width, int(row), theme) for row in lit)
         boxes.extend(_marks(matrix, (x, y), stage, lit, theme))
-        notes.append(Note(x - 0.5, y - 0.55 * head, f"{title}  {height}×{width}", theme.muted))
+        notes.append(
+            Note(
+                x - 0.5,
+                y - 0.55 * head,
+                phrase("{title}  {height}×{width}", title=title, height=height, width=width),
+                theme.muted,
+            )
+        )
     return Diagram((-1.0, -head, wide + 1.0, tall + 1.0), tuple(boxes), (), tuple(notes), largest=26.0)
 
 

@@ -16,6 +16,7 @@ from subdivision.exact import Exact, spelled
 from subdivision.extraordinary import EQUAL, Analysis, Condition, analysis
 from subdivision.isolation import Counts, counts
 from subdivision.spectrum import NamedStencil, Ring
+from subdivision.words import phrase, plural
 
 SMALL = 7
 """Up to so many points the local matrix has its weights written in it; else marks, and a row of each kind in words."""
@@ -81,7 +82,7 @@ def _weights(ring: Ring, theme: Theme) -> Diagram:
         for i, stencil in enumerate(ring.stencils)
         for j, name in enumerate(ring.names)
     ]
-    title = Note(-1.5, -1.9, f"Local matrix, n = {ring.valence}", theme.muted)
+    title = Note(-1.5, -1.9, phrase("Local matrix, n = {n}", n=ring.valence), theme.muted)
     return Diagram((-1.5, -2.2, m - 0.5, m - 0.5), (*heads, *cells), (), (title,), largest=64.0, shape=(1.0, 2.4))
 
 
@@ -97,7 +98,7 @@ def _marks(ring: Ring, theme: Theme) -> Diagram:
     row = m / 6
     kinds = [in_words(s, ring.valence) for s in ring.stencils if s.point in ("V", "E1", "F1")]
     words = [Note(m / 2, m + (k + 0.75) * row, text, theme.ink, "center") for k, text in enumerate(kinds)]
-    title = Note(-0.5, -0.7 * row, f"Local matrix, n = {ring.valence}", theme.muted)
+    title = Note(-0.5, -0.7 * row, phrase("Local matrix, n = {n}", n=ring.valence), theme.muted)
     low = m + (len(kinds) + 0.25) * row
     return Diagram((-0.5, -1.1 * row, m + 0.5, low), (frame, *marks), (), (title, *words))
 
@@ -201,7 +202,7 @@ def _by_mode(found: Analysis) -> dict[int, Condition]:
 def _verdict(condition: Condition) -> str:
     if condition.name != "C¹":
         return condition.word
-    return "C¹ holds" if condition.holds else f"C¹ fails: {condition.word}"
+    return "C¹ holds" if condition.holds else phrase("C¹ fails: {word}", word=condition.word)
 
 
 def _mode(k: int) -> str:
@@ -255,7 +256,7 @@ def _counts(trace: Trace, level: int, theme: Theme) -> Diagram:
 
 def _told(level: int, c: Counts) -> tuple[str, ...]:
     numbers = (c.vertices, c.edges, c.faces, c.euler, c.extraordinary)
-    apart = "–" if c.apart is None else f"{c.apart:,} edge{'s' * (c.apart != 1)}"
+    apart = "–" if c.apart is None else plural("{n:,} edge", "{n:,} edges", c.apart, n=c.apart)
     return (f"{level}", *(f"{number:,}".replace("-", "−") for number in numbers), apart)
 
 

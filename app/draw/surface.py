@@ -17,6 +17,7 @@ from lessons.script import Look, View
 from subdivision import Frame, Mesh, TopologyError, Trace
 from subdivision.arrays import Floats, Indices
 from subdivision.curvature import gauss_curvature, mean_curvature, vertex_normals
+from subdivision.words import phrase
 
 SHOWS: Mapping[str, str] = {
     "": "Plain",
@@ -116,7 +117,12 @@ def values_of(state: State, view: View, what: Shown, frame: Frame) -> Values | N
     if vertex >= 0 and (what.at > 0 or what.lifted >= 0):
         name = "Basis function" if what.lifted >= 0 else "Influence"
         column = influence(what.trace, vertex, motion.eased(what.at))
-        return Values(column, frame.topology.n_vertices, f"{name} of v{vertex}", bool(column.min() < -1e-9))
+        return Values(
+            column,
+            frame.topology.n_vertices,
+            phrase("{name} of v{vertex}", name=name, vertex=vertex),
+            bool(column.min() < -1e-9),
+        )
     kind = state.options.surface_shows
     if kind not in CURVATURES or not frame.topology.n_faces:
         return None

@@ -14,6 +14,7 @@ from app.figures import FigureError, file_name, png, stood_on, svg
 from app.state import State, at_stop, last, settle, start, stops
 from lessons.script import View
 from subdivision import Mesh, TopologyError, Trace, files, subdivide
+from subdivision.words import phrase
 
 Progress: TypeAlias = Callable[[float, str], None]
 Part: TypeAlias = Callable[[float], None]
@@ -57,14 +58,16 @@ def export(state: State, wish: Wish, out: Path, progress: Progress = lambda done
     except (FigureError, TopologyError, files.FileError) as fault:
         raise ExportError(str(fault)) from fault
     except OSError as fault:
-        raise ExportError(f"{out} cannot be written: {fault.strerror or fault}; choose another folder") from fault
+        raise ExportError(
+            phrase("{out} cannot be written: {reason}; choose another folder", out=out, reason=fault.strerror or fault)
+        ) from fault
 
 
 @contextmanager
 def _aside(out: Path) -> Iterator[Path]:
     """A folder beside ``out`` that goes, with all that is in it, when the work is over."""
     if not out.absolute().parent.is_dir():
-        raise ExportError(f"there is no folder {out.absolute().parent}; choose another one")
+        raise ExportError(phrase("there is no folder {folder}; choose another one", folder=out.absolute().parent))
     folder = out.absolute().with_name(f".{secrets.token_hex(8)}.part")
     try:
         folder.mkdir()
@@ -184,7 +187,9 @@ def _meshes(state: State, wish: Wish) -> Iterator[Job]:
 
 
 def _mesh(name: str, state: State, wish: Wish, level: int | None) -> Job:
-    called = state.lesson.title if level is None else f"{state.lesson.title}, level {level}"
+    called = (
+        state.lesson.title if level is None else phrase("{title}, level {level}", title=state.lesson.title, level=level)
+    )
     return Job(name, called, lambda path, part: files.write(path, mesh_of(state, level, limit=wish.limit)))
 
 
@@ -228,4 +233,4 @@ def _at_level(told: Trace, level: int) -> Mesh:
 
 
 def _called(state: State, step: int) -> str:
-    return f"{state.lesson.title}, step {step}"
+    return phrase("{title}, step {step}", title=state.lesson.title, step=step)

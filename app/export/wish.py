@@ -6,6 +6,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from app.figures import BACKGROUNDS, LEAST, MOST, UNREADABLE
+from subdivision.words import phrase
 
 SCOPES = ("view", "lesson", "everything")
 
@@ -86,22 +87,53 @@ class Wish:
         ExportError
         """
         if self.format not in FORMATS:
-            raise ExportError(f"there is no format '{self.format}'; choose one of {', '.join(FORMATS)}")
+            raise ExportError(
+                phrase(
+                    "there is no format '{format}'; choose one of {names}", format=self.format, names=", ".join(FORMATS)
+                )
+            )
         if self.of not in SCOPES:
-            raise ExportError(f"'{self.of}' cannot be exported; choose one of {', '.join(SCOPES)}")
+            raise ExportError(
+                phrase("'{scope}' cannot be exported; choose one of {names}", scope=self.of, names=", ".join(SCOPES))
+            )
         if not all(LEAST <= n <= MOST for n in self.size):
             width, height = self.size
-            raise ExportError(f"a picture has {LEAST} to {MOST} pixels each way, not {width} x {height}")
+            raise ExportError(
+                phrase(
+                    "a picture has {least} to {most} pixels each way, not {width} x {height}",
+                    least=LEAST,
+                    most=MOST,
+                    width=width,
+                    height=height,
+                )
+            )
         if self.background not in BACKGROUNDS:
-            raise ExportError(f"the background is one of {', '.join(BACKGROUNDS)}, not {self.background}")
+            raise ExportError(
+                phrase(
+                    "the background is one of {names}, not {background}",
+                    names=", ".join(BACKGROUNDS),
+                    background=self.background,
+                )
+            )
         if self.background == "transparent" and self.format in OPAQUE:
-            raise ExportError(f"a {self.kind.title} cannot be transparent; choose another background")
+            raise ExportError(phrase("a {kind} cannot be transparent; choose another background", kind=self.kind.title))
         if "background" in self.kind.wants and (words := UNREADABLE.get((theme, self.background))) is not None:
-            raise ExportError(f"the {theme} theme writes in {words}, which {self.background} hides; choose another")
+            raise ExportError(
+                phrase(
+                    "the {theme} theme writes in {words}, which {background} hides; choose another",
+                    theme=theme,
+                    words=words,
+                    background=self.background,
+                )
+            )
         if not SLOWEST <= self.pace <= FASTEST:
-            raise ExportError(f"the pace is from {SLOWEST:g} to {FASTEST:g}, not {self.pace:g}")
+            raise ExportError(
+                phrase(
+                    "the pace is from {least:g} to {most:g}, not {pace:g}", least=SLOWEST, most=FASTEST, pace=self.pace
+                )
+            )
         if self.level is not None and not 0 <= self.level <= MOST_LEVEL:
-            raise ExportError(f"levels go from 0 to {MOST_LEVEL}, not to {self.level}")
+            raise ExportError(phrase("levels go from 0 to {most}, not to {level}", most=MOST_LEVEL, level=self.level))
         return self
 
     def named(self, path: Path) -> Path:

@@ -42,11 +42,7 @@ def four_point(tension: Fraction | float = CUBIC, ends: Ends = Ends.SHORTENED) -
     title = "Four-point scheme, tension {w}" if is_usual else "Four-point scheme, tension {w}, {ends} ends"
     return Scheme(
         name=f"four-point {w}" if is_usual else f"four-point {w}, {ends.value} ends",
-        title=phrase(
-            "Four-point scheme, tension {w}" if is_usual else "Four-point scheme, tension {w}, {ends} ends",
-            w=w,
-            ends=ends.value,
-        ),  # fmt: skip
+        title=phrase(title, w=w, ends=ends.value),
         paper="DGL87",
         refuses=partial(_refuses, ends=ends),
         tellings={
