@@ -135,7 +135,7 @@ def _strokes(lines: Lines, view: _View, height: float) -> Iterator[str]:
     k = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
     t = ((k + 0.5) / counts[owner])[:, None]
     shown = view.depth.shows((1 - t) * ends[owner, 0] + t * ends[owner, 1], view.slack)
-    for pair, pieces in zip(ends, np.split(shown, np.cumsum(counts)[:-1]), strict=True):
+    for pair, pieces in zip(ends, np.split(shown, np.cumsum(counts))[:-1], strict=True):
         edges = np.flatnonzero(np.diff(np.concatenate([[0], pieces.astype(int), [0]])))
         for start, stop in edges.reshape(-1, 2) / len(pieces):
             a, b = (pair[0, :2] * (1 - at) + pair[1, :2] * at for at in (start, stop))
