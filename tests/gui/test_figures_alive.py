@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 import lessons
 from app.draw.layout import part_at
 from app.draw.theme import YELLOW
-from app.state import Stop, choose, first, last, open_lesson, stops
+from app.state import Stop, at_stop, choose, first, last, open_lesson, settle, stops
 from lessons.script import Kind
 
 pytestmark = pytest.mark.window
@@ -18,25 +18,20 @@ def press(window, key, modifiers=Qt.KeyboardModifier.NoModifier):
     QTest.keyClick(window.windowHandle(), key, modifiers)
 
 
-@pytest.mark.parametrize("lesson_id", [each.id for each in lessons.all_lessons()])
-def test_every_lesson_steps_from_its_first_stop_to_its_last_and_back_by_keyboard_alone(window, lesson_id):
-    lesson = lessons.find(lesson_id)
-    window.session.do(open_lesson, lesson)
-    ways = ((Key.Key_PageDown, stops(lesson)[1:]), (Key.Key_PageUp, stops(lesson)[-2::-1]))
-    for key, places in ways:
-        for stop in places:
-            press(window, key)  # plays
-            if window.session.state.is_playing:
-                goal = window.session.state.goal
-                assert (goal.beat, goal.at) == (stop.beat, stop.at)
-                window.session.do(lambda s, goal=goal: at(s, goal))
-            assert Stop(window.session.state.beat, window.session.state.at) == stop
-
-
-def at(state, stop):
-    from app.state import at_stop
-
-    return at_stop(state, stop)
+def test_the_whole_lecture_is_presented_from_its_first_stop_to_its_last_by_a_clicker_alone(window):
+    every = lessons.all_lessons()
+    window.session.do(open_lesson, every[0])
+    press(window, Key.Key_F5)
+    for place in [(lesson.id, stop) for lesson in every for stop in stops(lesson)][1:]:
+        press(window, Key.Key_PageDown)
+        if window.session.state.is_playing:
+            window.session.do(settle)
+        QTest.qWait(1)
+        state = window.session.state
+        assert (state.lesson.id, Stop(state.beat, state.at)) == place
+        assert state.options.presenting
+    press(window, Key.Key_Escape)
+    assert not window.session.state.options.presenting
 
 
 def test_a_knob_is_turned_by_its_keys_and_its_buttons_and_the_lesson_stays_where_it_is(window):
@@ -95,7 +90,7 @@ def test_the_switch_as_in_the_caption_recolours_the_picture_and_the_words(window
     window.session.do(last)
     marked = next(k for k, b in enumerate(window.session.state.lesson.beats) if "{centroid}" in b.text)
     press(window, Key.Key_A)
-    window.session.do(lambda s: at(s, next(p for p in stops(s.lesson) if p.beat == marked)))
+    window.session.do(lambda s: at_stop(s, next(p for p in stops(s.lesson) if p.beat == marked)))
     picture = window.viewport._picture
     assert "green" in picture.caption
     edge = next(e for e in picture.legend if e.text == "edge point")
@@ -110,7 +105,7 @@ def test_the_switch_as_in_the_caption_recolours_the_picture_and_the_words(window
 def test_notes_stand_apart_and_go_with_their_step(window):
     window.session.do(open_lesson, lessons.find("12"))
     noted = next(k for k, b in enumerate(window.session.state.lesson.beats) if b.notes)
-    window.session.do(lambda s: at(s, next(p for p in stops(s.lesson) if p.beat == noted)))
+    window.session.do(lambda s: at_stop(s, next(p for p in stops(s.lesson) if p.beat == noted)))
     assert window.session.state.now.notes[:20] in window.notes.words.text()
     assert window.session.state.now.notes not in window.viewport._picture.caption
 
