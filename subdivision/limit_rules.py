@@ -17,7 +17,9 @@ from subdivision.arrays import Floats
 from subdivision.averages import neighbours, vertex_corners
 from subdivision.exact import Exact, Formula, quotient
 from subdivision.fans import Corner, dart_ends, weighed
+from subdivision.meshes import as_mesh
 from subdivision.operators import Mean, Operator, Pick, identity, mix
+from subdivision.rows import Connectivity
 from subdivision.sharpness import blend, vertex_rules
 from subdivision.stage import Role, Stage
 from subdivision.topology import Topology
@@ -54,6 +56,12 @@ def vertices_to(t: Topology, limits: Operator) -> Stage:
     if (t.valence == 0).any():
         limits = mix(by_value(t.valence > 0), limits, identity(V))
     return Stage("limit", limits, t, np.arange(V), np.full(V, Role.MOVED))
+
+
+def every_vertex_stays(topology: Connectivity) -> Stage:
+    """The limit stage of a scheme that interpolates."""
+    t = as_mesh(topology)
+    return vertices_to(t, identity(t.n_vertices))
 
 
 def quad_dart(n: int, w: float) -> Floats:

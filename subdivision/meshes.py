@@ -1,5 +1,7 @@
 """Which control objects the mesh schemes take, and the sentence for those they refuse."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from subdivision.manifold import TopologyError
@@ -18,6 +20,17 @@ def as_mesh(t: Connectivity) -> Topology:
     if not isinstance(t, Topology):
         raise TopologyError(phrase("this scheme subdivides meshes only: {reason}", reason=refuses_non_meshes(t)))
     return t
+
+
+def refusing(*reasons: Callable[[Topology], str]) -> Callable[[Connectivity], str]:
+    """Why a scheme does not take ``t``: it is no polygon mesh, or the first of the reasons that holds; else empty."""
+
+    def refuses(t: Connectivity) -> str:
+        if not isinstance(t, Topology):
+            return refuses_non_meshes(t)
+        return next(filter(None, (reason(t) for reason in reasons)), "")
+
+    return refuses
 
 
 def refuses_non_quads(t: Connectivity) -> str:

@@ -115,11 +115,7 @@ def _connect(t: Topology, before: int) -> Stage:
     return Stage("connect", Pick(made, before + len(made)), corners(t), made, np.full(len(made), Role.MOVED))
 
 
-def _refuses(t: Connectivity) -> str:
-    if not isinstance(t, Topology):
-        return meshes.refuses_non_meshes(t)
-    return meshes.refuses_sharp(t) or meshes.refuses_curves_at_the_boundary(t)
-
+_refuses = meshes.refusing(meshes.refuses_sharp, meshes.refuses_curves_at_the_boundary)
 
 DOO_SABIN = Scheme(
     name="doo-sabin",

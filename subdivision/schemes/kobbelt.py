@@ -24,7 +24,7 @@ from subdivision import meshes, refine
 from subdivision.arrays import Indices
 from subdivision.averages import edge_midpoints, face_centroids, neighbours
 from subdivision.four_points import CUBIC, outline, pushed, reflected
-from subdivision.limit_rules import vertices_to
+from subdivision.limit_rules import every_vertex_stays
 from subdivision.operators import Mean, MeanOf, Operator, Pick, identity, mix, stack, widened
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
@@ -42,14 +42,14 @@ def kobbelt(tension: Fraction | float = CUBIC) -> Scheme:
         name=f"kobbelt{words}",
         title=phrase("Kobbelt's interpolating quads, tension {w}" if words else "Kobbelt's interpolating quads", w=w),
         paper="Kob96",
-        refuses=_refuses,
+        refuses=meshes.refusing(meshes.refuses_non_quads, meshes.refuses_sharp, meshes.refuses_literal_boundaries),
         tellings={
             "midpoints, then push": partial(by_pushing, w=w),
             "stencils": partial(by_stencils, w=w),
         },
         refinement=refine.QUADS,
         rings=2,
-        limit=_limit,
+        limit=every_vertex_stays,
     )
 
 
@@ -125,19 +125,6 @@ def _push(name: str, operator: Operator, fine: Topology, roles: Indices) -> Stag
 
 def _roles(t: Topology, face: Role, edge: Role) -> Indices:
     return np.repeat([Role.ORIGINAL, face, edge], [t.n_vertices, t.n_faces, t.n_edges])
-
-
-def _limit(topology: Connectivity) -> Stage:
-    """Every vertex stays where it is."""
-    t = meshes.as_mesh(topology)
-    return vertices_to(t, identity(t.n_vertices))
-
-
-def _refuses(t: Connectivity) -> str:
-    reason = meshes.refuses_non_quads(t)
-    if reason or not isinstance(t, Topology):
-        return reason
-    return meshes.refuses_sharp(t) or meshes.refuses_literal_boundaries(t)
 
 
 KOBBELT = kobbelt()

@@ -59,17 +59,11 @@ def _limit(topology: Connectivity) -> Stage:
     return vertices_to(t, half * identity(t.n_vertices) + half * neighbours(t))
 
 
-def _refuses(t: Connectivity) -> str:
-    if not isinstance(t, Topology):
-        return meshes.refuses_non_meshes(t)
-    return meshes.refuses_sharp(t) or meshes.refuses_open(t)
-
-
 MID_EDGE = Scheme(
     name="mid-edge",
     title="Mid-edge",
     paper="PR97",
-    refuses=_refuses,
+    refuses=meshes.refusing(meshes.refuses_sharp, meshes.refuses_open),
     tellings={"midpoints": connected_midpoints, "cut the corners": cut_off},
     refinement=MIDPOINTS,
     limit=_limit,

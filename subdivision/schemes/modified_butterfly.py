@@ -23,7 +23,7 @@ from subdivision.averages import edge_midpoints, edge_wings
 from subdivision.cycles import round_vertices
 from subdivision.exact import Exact, cosine
 from subdivision.four_points import outline
-from subdivision.limit_rules import vertices_to
+from subdivision.limit_rules import every_vertex_stays
 from subdivision.operators import Mean, MeanOf, Operator, Pick, identity, mix, stack, widened
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
@@ -105,32 +105,25 @@ def _special(t: Topology) -> Mask:
     return t.extraordinary & (t.valence > 0)
 
 
-def _limit(topology: Connectivity) -> Stage:
-    """Every vertex stays where it is."""
-    t = meshes.as_mesh(topology)
-    return vertices_to(t, identity(t.n_vertices))
-
-
-def _refuses(t: Connectivity) -> str:
-    reason = meshes.refuses_non_triangles(t)
-    if reason or not isinstance(t, Topology):
-        return reason
+def _refuses_pairs(t: Topology) -> str:
     pairs = np.flatnonzero((t.valence == 2) & ~t.on_boundary)
-    if pairs.size:
-        return phrase(
-            "vertex {vertex} has two triangles only, glued back to back, and the rule begins with three; remove it",
-            vertex=pairs[0],
-        )
-    return meshes.refuses_sharp(t) or meshes.refuses_literal_boundaries(t)
+    if pairs.size == 0:
+        return ""
+    return phrase(
+        "vertex {vertex} has two triangles only, glued back to back, and the rule begins with three; remove it",
+        vertex=pairs[0],
+    )
 
 
 MODIFIED_BUTTERFLY = Scheme(
     name="modified-butterfly",
     title="Modified butterfly",
     paper="ZSS96",
-    refuses=_refuses,
+    refuses=meshes.refusing(
+        meshes.refuses_non_triangles, _refuses_pairs, meshes.refuses_sharp, meshes.refuses_literal_boundaries
+    ),
     tellings={"midpoints, then push": by_pushing, "stencils": by_stencils},
     refinement=refine.TRIANGLES,
     rings=2,
-    limit=_limit,
+    limit=every_vertex_stays,
 )

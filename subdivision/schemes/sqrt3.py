@@ -89,26 +89,24 @@ def _limit(topology: Connectivity) -> Stage:
     return vertices_to(t, mix(away, neighbours(t), identity(t.n_vertices)))
 
 
-def _refuses(t: Connectivity) -> str:
-    reason = meshes.refuses_non_triangles(t)
-    if reason or not isinstance(t, Topology):
-        return reason
-    if t.boundary.any():
-        a, b = t.ends[np.flatnonzero(t.boundary)[0]]
-        return phrase(
-            "it ends at the edge between vertices {a} and {b}, and boundary edges are cut in every "
-            "second step only; close the mesh, or use Loop",
-            a=a,
-            b=b,
-        )
-    return meshes.refuses_sharp(t)
+def _refuses_open(t: Topology) -> str:
+    rim = np.flatnonzero(t.boundary)
+    if rim.size == 0:
+        return ""
+    a, b = t.ends[rim[0]]
+    return phrase(
+        "it ends at the edge between vertices {a} and {b}, and boundary edges are cut in every "
+        "second step only; close the mesh, or use Loop",
+        a=a,
+        b=b,
+    )
 
 
 SQRT3 = Scheme(
     name="sqrt3",
     title="Kobbelt's √3",
     paper="Kob00",
-    refuses=_refuses,
+    refuses=meshes.refusing(meshes.refuses_non_triangles, _refuses_open, meshes.refuses_sharp),
     tellings={"insert, smooth, flip": smooth_and_flip, "insert, flip, smooth": flip_and_smooth},
     refinement=THIRDS,
     limit=_limit,
