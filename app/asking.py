@@ -32,7 +32,7 @@ def is_open(state: State) -> bool:
 def answers(state: State) -> int:
     """How many answers there are to choose from, if the state rests where one is to be chosen; else 0."""
     asked = state.now.asks
-    return len(asked.options) if isinstance(asked, Weight) else len(asked.panes) if isinstance(asked, Which) else 0
+    return 0 if asked is None or isinstance(asked, Where) else len(asked.answers)
 
 
 def answer(state: State) -> Beat:
@@ -88,7 +88,7 @@ def spoken_truth(state: State) -> str:
         return phrase("Answer: the point goes to ({x}, {y}, {z}).", x=x, y=y, z=z)
     if isinstance(asked, Weight):
         k = asked.truth(answer(state))
-        return phrase("Answer {number}: {weight}.", number=k + 1, weight=spelled(asked.options[k]))
+        return phrase("Answer {number}: {weight}.", number=k + 1, weight=spelled(asked.answers[k]))
     if isinstance(asked, Which):
         return phrase("Answer: picture {number}.", number=asked.truth(answer(state)) + 1)
     return ""

@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 
 from lessons.measured import without_helpers
-from lessons.script import Beat, lesson, levels, play, show, side_by_side
+from lessons.questions import weight, where, which
+from lessons.script import Beat, at_rest, lesson, levels, play, show, side_by_side
 from subdivision import Topology, shapes, trace
-from subdivision.schemes import QUAD_CENTROID
+from subdivision.schemes import CATMULL_CLARK, QUAD_CENTROID
 
 
 @lesson("Figure 14  The cube", section="3.1 Quads: averaging",
@@ -17,20 +18,23 @@ def figure_14_cube() -> Iterator[Beat]:
     deep = without_helpers(trace(QUAD_CENTROID, cube, levels=3))
     counts = [(t.n_vertices, t.n_edges, t.n_faces)
               for t in (deep.topology_at(2 * level) for level in range(4))]
-    row = told.step(0).stencil(5)  # the corner in front
+    row, clark = (trace(rule, cube).whole.stencil(5) for rule in (QUAD_CENTROID, CATMULL_CLARK))  # the corner in front
 
     yield show(told, None, "A cube: six quads, and three of them at every vertex. Valence 3, not 4.",
                notes="The lecture's first mesh that no rectangular array can be. Here every vertex is extraordinary.",
                claim=set(cube.topology.valence) == {3})
     yield play(told, topology, "Topology: a point on every edge and every face. Six faces become 24; nothing moves.",
+               predict=which("Each face becomes four. Which picture is it, before anything moves?",
+                             *at_rest(told, (3, ""), (1, ""), (0, ""))),
                claim=not topology.moves and topology.topology.n_faces == 24)
     yield play(told, centroids, "Mark the centroid of every new face.",
-               notes="Ask: where will the corner in front go? It has three centroids around it.",
                claim=len(centroids.born) == 24)
     yield play(told, geometry, "Geometry: every vertex moves to the centroid of the centroids around it.",
-               formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves)
+               formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves,
+               predict=where(5, "Where will the corner in front go? It has three centroids around it."))
     yield show(told, geometry, "Why is the corner here? It keeps 27/48 of itself, takes 6/48 of each neighbour "
                "and 1/48 across each face.", stencil=row, span=3,
+               predict=weight(row, 5, "How much of itself does the corner keep?", clark.weight(5)),
                formula=r"$\dfrac{9}{16} V + \dfrac{6}{16n} \sum E_i + \dfrac{1}{16n} \sum F_i$",
                notes="So the corner of a cube from -1 to 1 moves from 1 to 2/3.",
                claim=sorted(48 * row.weights) == [1, 1, 1, 6, 6, 6, 27])

@@ -38,28 +38,28 @@ class Where:
 
 @dataclass(frozen=True, eq=False)
 class Weight:
-    """Asks for the weight of ``parent`` in a ``row``; ``options`` has it and wrong ones, the least first."""
+    """Asks for the weight of ``parent`` in a ``row``; ``answers`` has it and wrong ones, the least first."""
 
     text: str
     row: Stencil
     parent: int
-    options: tuple[Exact, ...]
+    answers: tuple[Exact, ...]
 
     def truth(self, beat: "Beat") -> int:
-        """Which of the options is the weight."""
-        return _only([w == self.row.weight(self.parent) for w in self.options], self.text)
+        """Which of the answers is the weight."""
+        return _only([w == self.row.weight(self.parent) for w in self.answers], self.text)
 
 
 @dataclass(frozen=True, eq=False)
 class Which:
-    """Asks which of some ``panes`` the beat comes to."""
+    """Asks which of some pictures, its ``answers``, the beat comes to."""
 
     text: str
-    panes: "tuple[View, ...]"
+    answers: "tuple[View, ...]"
 
     def truth(self, beat: "Beat") -> int:
-        """Which of the panes shows what one of the beat's does in the end."""
-        return _only([any(_is_same(pane, view) for view in beat.views) for pane in self.panes], self.text)
+        """Which of the pictures shows what one of the beat's does in the end."""
+        return _only([any(_is_same(pane, view) for view in beat.views) for pane in self.answers], self.text)
 
 
 Question: TypeAlias = Where | Weight | Which
@@ -102,8 +102,7 @@ def checked(beat: "Beat") -> Question:
         if not asked.pane < len(beat.views) or beat.is_still:
             raise ValueError(f"'{asked.text}': nothing moves there; ask it of a beat that plays, in one of its panes")
         return asked
-    n = len(asked.options if isinstance(asked, Weight) else asked.panes)
-    if not 2 <= n <= MOST:
+    if not 2 <= (n := len(asked.answers)) <= MOST:
         raise ValueError(f"'{asked.text}': {n} answers to choose from; give two to {MOST} that differ")
     asked.truth(beat)
     return asked

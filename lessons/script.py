@@ -347,7 +347,7 @@ def question_of(beat: Beat) -> Beat:
     """The still that asks what a beat answers: its views as they stand before it, or pictures to choose from."""
     asked = checked(beat)
     views = (
-        tuple(replace(v, title=str(k), look=v.look or beat.look, reading=None) for k, v in enumerate(asked.panes, 1))
+        tuple(replace(v, title=str(k), look=v.look or beat.look, reading=None) for k, v in enumerate(asked.answers, 1))
         if isinstance(asked, Which)
         else tuple(_before(view, beat.is_still) for view in beat.views)
     )

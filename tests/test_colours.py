@@ -94,7 +94,7 @@ def saturated(c):
 def meanings(theme: Theme):
     """The colours that mean something, by name."""
     extraordinary = {} if theme.extraordinary is None else {EXTRAORDINARY: theme.extraordinary}
-    return {**{r.name: c for r, c in theme.roles.items()}, **extraordinary, "selection": theme.selection}
+    return {**{r.name: c for r, c in theme.roles.items()}, **extraordinary, "selection": theme.selection, "guess": theme.guess}
 
 
 def too_near(colours, bound):

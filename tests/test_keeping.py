@@ -138,7 +138,7 @@ def test_polygons_and_nets_of_any_numbers_are_kept(topology):
 
 
 def test_every_field_of_the_state_is_kept_or_passes():
-    told = {"lesson", "beat", "at", "focus", "edits", "lab", "turn", "options"}
+    told = {"lesson", "beat", "at", "focus", "edits", "lab", "turn", "predicted", "options"}
     assert {each.name for each in fields(st.State)} <= told | {"goal", "wait", "picked"}
     assert {each.name for each in fields(Lab)} == {"name", "control", "rules", "levels", "overlay"}
     assert {each.name for each in fields(Rule)} == {"family", "parameters", "telling", "boundary", "until"}

@@ -27,7 +27,7 @@ MARK_SIZE, DISTANCE_SIZE = 42.0, 26.0
 CLEAR = (44.0, 44.0)
 """How a distance keeps off the mark of its place, in logical points."""
 
-HALO = 1.7
+HALO = 1.15
 """Radius round the point that is asked for, relative to the markers that are there."""
 
 TINT = 0.25
@@ -91,20 +91,20 @@ def weights(state: State, theme: Theme) -> Diagram | None:
     if not isinstance(question, Weight) or not (asking.is_open(state) or state.predicted):
         return None
     true = question.truth(asking.answer(state)) if asking.is_told(state) else -1
-    n, chosen = len(question.options), asking.chosen(state)
+    n, chosen = len(question.answers), asking.chosen(state)
     boxes = [
         Box(
             0.0, float(k), (text,), mixed(theme.background, theme.accent, TINT) if k == true else theme.background,
             theme.ink, theme.guess if k == chosen else theme.muted, 1.1, 0.72, line=FRAME if k == chosen else THIN,
             choice=k,
         )
-        for k, text in enumerate(map(spelled, question.options))
+        for k, text in enumerate(map(spelled, question.answers))
     ]  # fmt: skip
     notes = [
         *(Note(-0.75, float(k), str(k + 1), theme.muted, "right") for k in range(n)),
         *(Note(0.75, float(k), words, theme.ink) for k in range(n) if (words := _verdict(k, chosen, true))),
     ]
-    return Diagram((-1.3, -0.6, 2.5, n - 0.4), tuple(boxes), (), tuple(notes), largest=110.0)
+    return Diagram((-1.0, -0.6, 2.1, n - 0.4), tuple(boxes), (), tuple(notes), largest=120.0)
 
 
 def pictures(state: State) -> Iterator[tuple[View, bool]]:

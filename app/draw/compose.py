@@ -8,10 +8,11 @@ from contextlib import suppress
 from dataclasses import replace
 from itertools import accumulate, pairwise
 
-from app.draw import diagrams, distances, lattice, matrices, motion, spectrum, stencils, surface
+from app import asking
+from app.draw import asked, diagrams, distances, lattice, matrices, motion, spectrum, stencils, surface
 from app.draw.framing import camera
 from app.draw.limits import LIMIT_POINT
-from app.draw.picture import Diagram, Entry, Pane, Picture, Scene, Shape
+from app.draw.picture import Colour, Diagram, Entry, Pane, Picture, Scene, Shape
 from app.draw.pointed import Pointed, row_of
 from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
 from app.draw.selected import is_pickable, selected
@@ -19,6 +20,7 @@ from app.draw.spoken import translated
 from app.draw.theme import NAMES, Theme, theme_of
 from app.state import Spot, State, level_of
 from app.words import speaking, tr
+from lessons.questions import Which
 from lessons.script import Beat, Kind, View
 from subdivision import Mesh, Polyline, Role, TopologyError
 from subdivision.arrays import Floats
@@ -29,6 +31,9 @@ WITH_MATRIX = 0.56
 
 WITH_SPECTRUM = 0.38
 """The same beside an extraordinary vertex in numbers."""
+
+WITH_ANSWERS = 0.72
+"""The same beside answers to choose from."""
 
 WIDE = 2.4
 """Width to height of what the words leave of a picture."""
@@ -49,11 +54,14 @@ def _composed(state: State) -> Picture:
     found = [_content(state, view, theme, rect[2] * rect[3]) for view, rect in zip(beat.views, rects, strict=True)]
     contents = surface.painted([content for content, _ in found], [values for _, values in found], theme)
     panes = tuple(
-        Pane(content, rect, view.title, _measured(state, view))
-        for content, view, rect in zip(contents, beat.views, rects, strict=True)
+        Pane(content, rect, view.title, _measured(state, view), _frame(state, k, theme))
+        for k, (content, view, rect) in enumerate(zip(contents, beat.views, rects, strict=True))
     )
-    if asides := _asides(state, theme):
-        left = WITH_SPECTRUM if state.options.spectrum else WITH_MATRIX
+    if asides := _answers(state, theme):
+        left = WITH_ANSWERS
+    else:
+        asides, left = _asides(state, theme), WITH_SPECTRUM if state.options.spectrum else WITH_MATRIX
+    if asides:
         panes = (*(_within(pane, 0, left) for pane in panes), *(_within(pane, left, 1 - left) for pane in asides))
     return Picture(
         panes=panes,
@@ -81,6 +89,26 @@ def _asides(state: State, theme: Theme) -> tuple[Pane, ...]:
     if state.options.distances and lead is not None:
         shown.append(distances.distances(state, lead, theme))
     return tuple(Pane(each, (0, k / len(shown), 1, 1 / len(shown))) for k, each in enumerate(shown))
+
+
+def _answers(state: State, theme: Theme) -> tuple[Pane, ...]:
+    """Beside a question: weights to choose from; beside its answer: what was chosen, and what is true."""
+    if (choices := asked.weights(state, theme)) is not None:
+        return (Pane(choices),)
+    shown = list(asked.pictures(state))
+    return tuple(
+        Pane(
+            _content(state, view, theme, (1 - WITH_ANSWERS) / len(shown))[0], (0, k / len(shown), 1, 1 / len(shown)),
+            view.title, frame=theme.guess if is_chosen else None,
+        )
+        for k, (view, is_chosen) in enumerate(shown)
+    )  # fmt: skip
+
+
+def _frame(state: State, k: int, theme: Theme) -> Colour | None:
+    """Round the picture that is chosen."""
+    is_chosen = isinstance(state.now.asks, Which) and asking.chosen(state) == k
+    return theme.guess if is_chosen else None
 
 
 def _leading_scene(state: State) -> View | None:
@@ -116,6 +144,8 @@ def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:
         points.insert(1, Entry(Shape.SPHERE, theme.extraordinary, EXTRAORDINARY_NAME))
     if CONTRIBUTOR in there:
         points.append(Entry(Shape.SPHERE, theme.selection, CONTRIBUTOR))
+    if any(p.content.pins for p in panes if isinstance(p.content, Scene)):
+        points.append(Entry(Shape.AIM, theme.guess, asked.PREDICTION))
     if LIMIT_POINT in there:
         points.append(Entry(Shape.SPHERE, theme.accent, LIMIT_POINT))
     return (*points, *stencils.legend(panes, theme))
@@ -126,7 +156,7 @@ def pointed(state: State, view: View) -> Pointed | None:
     if (found := in_focus(state, view)) is not None:
         with suppress(TopologyError):  # no limit to read: the panel beside the picture says why
             return row_of(state.trace(view), found, state.options.across)
-    if view.stencil is not None and state.progress == 1:
+    if view.stencil is not None and state.progress == 1 and not view.veiled:
         return Pointed(view.stencil, int(view.stop), view.span)
     return None
 
@@ -147,7 +177,7 @@ def lit(state: State, view: View) -> Spot | None:
     if spot is not None and views[spot.pane].trace is view.trace:
         return spot
     for k, other in sorted(enumerate(views), key=lambda one: one[1] is not view):
-        if other.trace is view.trace and other.stencil is not None and state.progress == 1:
+        if other.trace is view.trace and other.stencil is not None and state.progress == 1 and not other.veiled:
             return Spot(k, int(other.stop), other.stencil.point)
     return None
 
@@ -164,7 +194,8 @@ def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scen
     if view.kind is Kind.DIAGRAM:
         return diagrams.diagram(trace, at, theme, lit(state, view)), None
     if view.kind is Kind.STENCIL and view.stencil is not None:
-        return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme), None
+        words = asked.veiled(state, view.stencil) if view.veiled else None
+        return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme, words), None
     # of the trace as the lesson has it: dragging a point moves no camera
     what = surface.shown(state, view)
     is_as_told = what.framed is view.trace
@@ -177,6 +208,8 @@ def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scen
     made = scene(frame, what.trace, seen, options, theme, row, view.marks, over, share)
     if state.picked is not None and is_pickable(state, view):
         made = selected(made, what.trace.control, state.picked, theme, is_control=what.at == 0)
+    if is_as_told:
+        made = asked.asked(made, state, view, theme)
     made = surface.dressed(made, what, frame, state, view, theme)
     return made, surface.values_of(state, view, what, frame)
 
@@ -189,10 +222,9 @@ def _contributors(view: View) -> Floats | None:
 
 
 def _measured(state: State, view: View) -> str:
-    if view.reading is None:
-        return ""
     shown = [view] if view.over is None else [view, view.over]
-    return view.reading(*(shown_mesh(state, each) for each in shown))
+    reading = view.reading(*(shown_mesh(state, each) for each in shown)) if view.reading is not None else ""
+    return joined("   ", [words for words in (reading, asking.measured(state, view)) if words])
 
 
 def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:
@@ -216,7 +248,10 @@ def _share(view: View) -> float:
 
 def _corner(state: State) -> str:
     """Knobs, level and counts; the counts only where all panes show the same control object at the same place."""
-    turned = [joined(" ", (knob.label, str(value))) for knob, value in zip(state.lesson.knobs, state.lesson.values, strict=True)]
+    turned = [
+        joined(" ", (knob.label, str(value)))
+        for knob, value in zip(state.lesson.knobs, state.lesson.values, strict=True)
+    ]
     lead = state.now.lead
     is_one = all(v.trace is lead.trace and (v.start, v.stop) == (lead.start, lead.stop) for v in state.now.views)
     if lead.kind is Kind.STENCIL or not is_one:

@@ -44,7 +44,7 @@ IN_BOX = 1.18
 HEAD, SPREAD = 3.6, 0.55
 """How far an arrow's head reaches back, relative to the width of its stroke, and aside, relative to that."""
 
-PIN, TIE, RIM = 13.0, 2.6, 1.35
+PIN, TIE, RIM = 15.0, 2.6, 1.35
 """Radius of a pin's mark, width of its line; how much larger is what sets the mark off from what lies under it."""
 
 FRAME, ROUND = 7.0, 12.0

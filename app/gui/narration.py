@@ -7,6 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
+from app.asking import answers, is_open
 from app.draw.compose import said
 from app.draw.primitives import Text
 from app.draw.theme import THEMES
@@ -29,6 +30,8 @@ Piece: TypeAlias = tuple[str, float, float, str]
 """Type: its words, x from the middle, baseline, alignment."""
 
 HINT = "Space or PageDown: next stage"
+WHERE_HINT = "Click where you think it goes, up to 8 times. Backspace: take one back. Next: see"
+ANSWER_HINT = "Click an answer or press its number. Next: see"
 
 
 class Narration(QWidget):
@@ -56,7 +59,10 @@ class Narration(QWidget):
         """Room for every beat of the lesson, on the grid."""
         state = self._session.state
         size = self._size(state, window_height)
-        heights = [_laid(said(state, b), b.formula, size, width)[1] for b in state.lesson.beats]
+        heights = [
+            _laid(said(state, b), b.formula, size, width)[1] + (HINT_ROOM * size if b.asks is not None else 0.0)
+            for b in state.lesson.beats
+        ]
         tall = max(heights[0] + HINT_ROOM * size, *heights)
         most = window_height // 3
         return int(min(-(-(tall + 1.1 * size) // GRID) * GRID, most))
@@ -81,7 +87,9 @@ class Narration(QWidget):
         painter.end()
 
     def _hint(self, state: State) -> str:
-        """What to do first, until it has been done."""
+        """What to do first, until it has been done; and at a question."""
+        if is_open(state):
+            return ANSWER_HINT if answers(state) else WHERE_HINT
         first = stops(state.lesson)[0]
         if len(stops(state.lesson)) == 1:
             return ""

@@ -4,6 +4,7 @@ from PySide6.QtCore import QElapsedTimer, Qt, QTime, QTimer
 from PySide6.QtGui import QFont, QGuiApplication, QHideEvent, QPainter, QPaintEvent, QScreen, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
+from app.asking import is_open, spoken_truth
 from app.draw.compose import said
 from app.draw.primitives import Text
 from app.draw.theme import THEMES
@@ -16,6 +17,7 @@ from app.gui.session import Session
 from app.gui.timeline import current
 from app.state import State, at_stop, settle, stops
 from lessons import all_lessons
+from subdivision.words import phrase
 
 TICK = 250
 """Milliseconds between looks at the clock."""
@@ -177,9 +179,10 @@ def step_of(state: State) -> tuple[int, int]:
 
 
 def noted(state: State) -> str:
-    """What may be said to the step, and what is not the lecture's own."""
+    """What may be said to the step, and what is not the lecture's own; at a question, the answer."""
     ours = f"Not in the lecture: {state.lesson.ours}" if state.lesson.ours else ""
-    return "\n\n".join(words for words in (state.now.notes, ours) if words)
+    said_so_far = phrase("Predictions: {n}.", n=len(state.predicted)) if is_open(state) else ""
+    return "\n\n".join(words for words in (spoken_truth(state), said_so_far, state.now.notes, ours) if words)
 
 
 def upcoming(state: State) -> str:

@@ -6,8 +6,9 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QToolTip, QWidget
 
+from app.asking import is_open
 from app.draw.compose import said
-from app.draw.theme import THEMES, mixed
+from app.draw.theme import THEMES, Theme, mixed
 from app.gui.look import GRID, colour, fine, icon, px, type_face
 from app.gui.session import Session
 from app.state import Segment, State, axis_of, choose, seek, segments
@@ -15,8 +16,11 @@ from app.state import Segment, State, axis_of, choose, seek, segments
 HEIGHT = 7 * GRID
 """Pixels at 100 %."""
 
-"""Pixels at 100 %: so near to a stage's end, scrubbing is at it."""
 SNAP = 6.0
+"""Pixels at 100 %: so near to a stage's end, scrubbing is at it."""
+
+MARK = 7.5
+"""Radius of a question's mark; pixels at 100 %."""
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 
@@ -68,7 +72,7 @@ class Track(QWidget):
 
     def show_state(self, state: State) -> None:
         here = current(state)
-        self.setAccessibleDescription(f"level {here.level}, {here.name or 'still'}: {said(state, state.now)}")
+        self.setAccessibleDescription(f"level {here.level}, {here.name or ('question' if is_open(state) else 'still')}: {said(state, state.now)}")
         self.update()
 
     # -- place and time -------------------------------------------------------------------------
@@ -137,9 +141,9 @@ class Track(QWidget):
             if s.ends_level and right - taken > fine(26):
                 self._word(painter, f"×{s.level}", right, middle + fine(11), colour(theme.ink))
                 taken = right
+        for s in parts:
             if state.lesson.beats[s.beat].asks is not None:
-                ink = theme.ink if s is now else theme.muted
-                self._word(painter, "?", (left + right) / 2, middle + 11, colour(ink))
+                self._question(painter, QPointF(self._x(s.end), middle), theme)
         painter.setPen(QPen(colour(theme.panel), fine(2)))
         painter.setBrush(colour(theme.ink))
         painter.drawEllipse(QPointF(self._x(axis), middle), fine(7), fine(7))
@@ -169,6 +173,17 @@ class Track(QWidget):
     def _has_room(self, face: QFont) -> bool:
         parts, wide = segments(self._session.state.lesson), QFontMetricsF(face).horizontalAdvance
         return all(wide(s.name) + fine(6) < self._x(s.end) - self._x(s.begin) for s in parts if s.name)
+
+    def _question(self, painter: QPainter, at: QPointF, theme: Theme) -> None:
+        """A mark on the track where the lesson rests at a question."""
+        radius = fine(MARK)
+        painter.setPen(QPen(colour(theme.guess), fine(1.6)))
+        painter.setBrush(colour(theme.panel))
+        painter.drawEllipse(at, radius, radius)
+        painter.setFont(type_face(11, QFont.Weight.DemiBold))
+        painter.setPen(colour(theme.ink))
+        inside = QRectF(at.x() - radius, at.y() - radius, 2 * radius, 2 * radius)
+        painter.drawText(inside, Qt.AlignmentFlag.AlignCenter, "?")
 
     def _word(self, painter: QPainter, text: str, x: float, top: float, ink: QColor) -> None:
         painter.setFont(type_face(12, QFont.Weight.DemiBold))

@@ -12,9 +12,10 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
 from app import bench
+from app.asking import is_open, predict
 from app.draw.fading import faded
 from app.draw.layout import fitted, overlay, pane_areas, part_at
-from app.draw.picture import Camera, Picture, Scene
+from app.draw.picture import Box, Camera, Picture, Scene
 from app.draw.primitives import Area
 from app.draw.seen import from_there
 from app.draw.selected import is_pickable
@@ -27,6 +28,7 @@ from app.gui.look import colour
 from app.gui.narration import Narration
 from app.gui.pointer import Pointer
 from app.gui.pointing import nearest, part
+from app.gui.predicting import predicted
 from app.gui.session import Session
 from app.state import Picked, Spot, State, drag, is_turned_only, look, pick, put_back, turn_view
 from app.turn import REST, Turn
@@ -320,10 +322,13 @@ class Viewport(QWidget):
 
     def _released(self, event: QMouseEvent) -> None:
         if self._press is not None and not self._is_drag and event.button() == Qt.MouseButton.LeftButton:
-            spot = self.spot_at(event.position())
-            self._is_pinned = spot is not None
-            self._session.do(look, spot)
-            self._pick(event, spot)
+            if is_open(self._state):
+                self._predict(event.position())
+            else:
+                spot = self.spot_at(event.position())
+                self._is_pinned = spot is not None
+                self._session.do(look, spot)
+                self._pick(event, spot)
         if self._grip is not None and self._is_drag:
             self._pull.stop()
             self._target = event.position()
@@ -332,6 +337,14 @@ class Viewport(QWidget):
             self._session.let_go()
         self._press, self._is_drag, self._grip = None, False, None
         self._calm.start()
+
+    def _predict(self, here: QPointF) -> None:
+        """A click at a question is a prediction."""
+        found = part_at(self._picture, self.width(), self._tall(), here.x(), here.y(), words=False)
+        box = found[1] if found is not None and isinstance(found[1], Box) else None
+        prediction = predicted(self._state, here, self.areas(), self.cameras(), box)
+        if prediction is not None:
+            self._session.do(predict, prediction)
 
     def _pick(self, event: QMouseEvent, spot: Spot | None) -> None:
         """Choose what was clicked to be edited, in the laboratory; with Shift, besides what is chosen."""
@@ -355,6 +368,9 @@ class Viewport(QWidget):
         return part(control, camera, area, at.x(), at.y(), is_solid=is_solid)
 
     def _double_clicked(self, event: QMouseEvent) -> None:
+        if is_open(self._state):
+            self._pressed(event)  # two clicks in a row are two predictions
+            return
         spot = self.spot_at(event.position())
         if spot is None:
             self.reset_camera()
@@ -379,7 +395,7 @@ class Viewport(QWidget):
     def spot_at(self, at: QPointF) -> Spot | None:
         """The point that is meant by a place on the screen: the nearest in space, in front first; a box, or a disc."""
         state = self._state
-        if state.is_playing:
+        if state.is_playing or is_open(state):
             return None
         if found := part_at(self._picture, self.width(), self._tall(), at.x(), at.y(), words=False):
             k, part = found
