@@ -21,6 +21,7 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QOffscreenSurface, QOpenGLContext, QSurfaceFormat
 from PySide6.QtWidgets import QApplication
 
+from app.asking import toggle_asking
 from app.draw.theme import THEMES
 from app.gui import look
 from app.gui.autosave import Autosave, folder
@@ -64,6 +65,7 @@ def run(
     log = keep_log()
     settings = settings_file()
     state = first_state(lesson, step, theme or settings_theme(settings), as_caption)
+    state = state if settings.value("asking", "on") == "off" else toggle_asking(state)
     state = opening(choose(state, reduced_motion=settings.value("reduced_motion", "off") == "on"))
     window = Window(Session(state), settings)
     catch_everything(window, log)

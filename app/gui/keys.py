@@ -8,6 +8,7 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QAbstractSpinBox, QApplication, QComboBox, QLineEdit
 
+from app.asking import answers, is_open, predict, take_back
 from app.draw.pointed import ACROSS
 from app.editing import turn_sharpness
 from app.gui.editing import EDITS, SHARPNESS
@@ -28,6 +29,7 @@ from app.state import (
     turn_knob,
     turn_level,
 )
+from lessons.questions import MOST as MOST_ANSWERS
 
 if TYPE_CHECKING:
     from app.gui.window import Window
@@ -39,7 +41,8 @@ Does: TypeAlias = "Callable[[Window], None]"
 class Command:
     """Something the user can do.
 
-    ``keys`` as Qt spells them; ``on`` tells whether a switch is on; ``icon`` names a file of ``assets/icons``.
+    ``keys`` as Qt spells them; ``on`` tells whether a switch is on; ``icon`` names a file of ``assets/icons``;
+    ``when`` tells whether it can be done, so that a key may do one thing now and another then.
     """
 
     id: str
@@ -50,6 +53,7 @@ class Command:
     on: Callable[[Options], bool] | None = None
     icon: str = ""
     repeats: bool = False
+    when: Callable[[State], bool] | None = None
 
 
 def _wish(transition: Callable[..., State], *args: object, **options: object) -> Does:
@@ -76,8 +80,17 @@ def _speed(speed: float) -> Command:
 def _across(key: int, across: str) -> Command:
     name = f"Weights across {ACROSS[across].split(',')[0].removeprefix('to ')}"
     return Command(
-        f"across_{across}", name, "View", (str(key),), _wish(choose, across=across), lambda o: o.across == across
-    )
+        f"across_{across}", name, "View", (str(key),), _wish(choose, across=across), lambda o: o.across == across,
+        when=lambda state: not answers(state),
+    )  # fmt: skip
+
+
+def _answer(number: int) -> Command:
+    name = f"Answer {number} to a question"
+    return Command(
+        f"answer_{number}", name, "Lesson", (str(number),), _wish(predict, number - 1),
+        when=lambda state: number <= answers(state),
+    )  # fmt: skip
 
 
 def _pace(by: int) -> Does:
@@ -108,6 +121,10 @@ COMMANDS = (
     Command("less", "Less: degree, valence", "Lesson", ("Ctrl+Left",), _wish(turn_knob, 0, -1), repeats=True),
     Command("more_2", "More of the second", "Lesson", ("Ctrl+Up",), _wish(turn_knob, 1, 1), repeats=True),
     Command("less_2", "Less of the second", "Lesson", ("Ctrl+Down",), _wish(turn_knob, 1, -1), repeats=True),
+    Command("asking", "Ask for predictions", "Lesson", ("F6",), lambda w: w.toggle_asking(), lambda o: o.asking),
+    *(_answer(number) for number in range(1, MOST_ANSWERS + 1)),
+    Command("take_back", "Take the last prediction back", "Lesson", ("Backspace",), _wish(take_back),
+            when=lambda state: is_open(state) and bool(state.predicted)),
     Command("search", "Find a lesson", "Lesson", ("Ctrl+K",), lambda w: w.find_lesson(), icon="search"),
     Command("present", "Full screen", "Present", ("F5", "Shift+F5", "F11"), lambda w: w.toggle_presenting(),
             lambda o: o.presenting, "present"),
@@ -156,6 +173,7 @@ MOUSE = (
     ("Why is a point here?", "point at it; click to keep it"),
     ("Move a control point", "drag it; hold X, Y or Z: along an axis"),
     ("Put it back", "double click it"),
+    ("Predict", "at a question: click the place, the weight or the picture"),
     ("Pick a point, edge or face to edit", "click it in the laboratory; Shift + click: more"),
 )
 """What the mouse does, for the sheet of keys."""

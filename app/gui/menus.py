@@ -26,7 +26,7 @@ MENUS = (
               "camera", "contents", "shown")),
     ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "more", "less",
                 "more_2", "less_2", "", "through",
-                "@Speed", "", "search", "@Lessons")),
+                "@Speed", "", "asking", "take_back", "", "search", "@Lessons")),
     ("Present", ("present", "presenter", "blank", "", "laser", "magnifier")),
     ("Help", ("keys", "about")),
 )  # fmt: skip

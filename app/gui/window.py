@@ -27,6 +27,7 @@ from PySide6.QtWidgets import (
 
 import lessons
 from app import bench
+from app.asking import toggle_asking
 from app.draw.theme import THEMES
 from app.export.wish import Wish
 from app.gui import menus, saving
@@ -115,6 +116,8 @@ class Window(QMainWindow):
         for id_, action in self.actions_by_id.items():
             if (on := BY_ID[id_].on) is not None:
                 action.setChecked(on(state.options))
+            if (when := BY_ID[id_].when) is not None:
+                action.setEnabled(when(state))
         self.actions_by_id["undo"].setEnabled(self.session.can_undo)
         self.actions_by_id["redo"].setEnabled(self.session.can_redo)
         for id_, *_ in (*EDITS, *SHARPNESS):
@@ -202,6 +205,11 @@ class Window(QMainWindow):
         is_on = not self.session.state.options.reduced_motion
         self.settings.setValue("reduced_motion", "on" if is_on else "off")
         self.session.do(choose, reduced_motion=is_on)
+
+    def toggle_asking(self) -> None:
+        """Let lessons ask before they show, or not; the window remembers it."""
+        self.settings.setValue("asking", "off" if self.session.state.options.asking else "on")
+        self.session.do(toggle_asking)
 
     def choose_file(self) -> None:
         patterns = " ".join(f"*{suffix}" for suffix in OPENABLE)
