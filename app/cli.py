@@ -72,33 +72,34 @@ class Fault(Exception):
 
 
 def _bring(options: argparse.Namespace) -> None:
-    """Have the lessons of the folder that is named with ``--lessons``; what is wrong with some of them is said."""
-    folder: Path | None = getattr(options, "own", None)
-    if folder is None:
-        return
+    """Have the lessons of the folder that is named with ``--lessons``; what is wrong with some of them is said.
+
+    The window asks for itself whether a folder may run, and opens the one that was open last.
+    """
     from app import shelf
 
-    place = shelf.usual_place()
+    place, is_window = shelf.usual_place(), options.run is open_window
     kept = shelf.remembered(place)
-    try:
-        if not (options.trust or kept.is_agreed(folder) or options.run is open_window):
-            raise Fault(
-                phrase(
-                    "lessons are programs, and those in {folder} have not been agreed to; read them, then add --trust",
-                    folder=folder,
-                )
-            )
-        if options.trust or kept.is_agreed(folder):
-            found = shelf.opened(folder, kept, _warn, shelf.tried_now)
+    named: Path | None = getattr(options, "own", None)
+    folder = named or (Path(kept.folder) if is_window and kept.folder else None)
+    if folder is None:
+        return
+    if not (folder.is_dir() or (is_window and named is None)):
+        raise Fault(shelf.no_folder(folder))
+    if options.trust or kept.is_agreed(folder):
+        with suppress(OSError):  # what cannot be remembered is tried again next time
+            found = shelf.opened(folder, kept, _warn, shelf.tried_now if named else lambda path, taken: None)
             lessons.bring(each for those in found.found.values() for each in those)
             for fault in found.faults:
                 _warn(fault)
-            with suppress(OSError):  # then they are tried again next time
-                shelf.remember(place, found.shelf)
-        elif not folder.is_dir():
-            raise Fault(shelf.no_folder(folder))
-    except OSError as fault:
-        raise Fault(shelf.no_folder(folder)) from fault
+            shelf.remember(place, found.shelf)
+    elif not is_window:
+        raise Fault(
+            phrase(
+                "lessons are programs, and those in {folder} have not been agreed to; read them, then add --trust",
+                folder=folder,
+            )
+        )
 
 
 def _warn(fault: own.Fault) -> None:
@@ -121,7 +122,7 @@ def open_window(options: argparse.Namespace) -> int:
     (chosen,) = _turned([_lesson(options.lesson)], dict(options.set)) if options.lesson else (None,)
     from app.gui.application import run
 
-    return run(chosen, options.step, options.theme, options.as_caption)
+    return run(chosen, options.step, options.theme, options.as_caption, own=options.own, is_trusted=options.trust)
 
 
 def _open(opening: Callable[[State], State], path: Path | None, options: argparse.Namespace) -> int:
@@ -133,7 +134,8 @@ def _open(opening: Callable[[State], State], path: Path | None, options: argpars
 
     wished = {"theme": options.theme, "as_caption": options.as_caption}
     looks = {name: value for name, value in wished.items() if value}
-    return run(theme=options.theme, opening=lambda state: choose(opening(state), **looks), path=path)
+    return run(theme=options.theme, opening=lambda state: choose(opening(state), **looks), path=path,
+               own=options.own, is_trusted=options.trust)  # fmt: skip
 
 
 def list_lessons(options: argparse.Namespace) -> None:

@@ -315,7 +315,7 @@ def _lesson(entry: Entry, knobs: Entry, lab: Lab | None, table: Mapping[str, Ent
     lessons = {each.id: each for each in all_lessons()}
     if not isinstance(entry.value, str) or entry.value not in lessons:
         raise entry.fault(
-            phrase("there is no lesson '{name}'; choose another, or update", name=printable(str(entry.value)[:60]))
+            phrase("there is no lesson '{name}'; if it is one of your own, open its folder first (File > Lessons folder…)", name=printable(str(entry.value)[:60]))
         )
     lesson = lessons[entry.value]
     limits = {knob.name: (knob.least, knob.most) for knob in lesson.knobs}

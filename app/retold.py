@@ -12,7 +12,7 @@ def retold(state: State, lesson: Lesson) -> State:
         return state
     state = settle(state)
     same = {name: value for name, value in state.lesson.settings.items() if name in {k.name for k in lesson.knobs}}
-    there = lesson.turned(**same)
+    there = lesson.turned(**same).asking(state.lesson.asks)
     beat = _nearest(state, there.beats)
     now = there.beats[beat]
     at = min(max(now.start + state.at - state.now.start, now.start), now.stop)

@@ -19,7 +19,7 @@ from time import perf_counter
 
 from app.draw.compose import compose
 from app.draw.layout import overlay
-from app.state import at_stop, start, stops
+from app.state import State, at_stop, stops
 from lessons.own import MEND, Fault, LessonError, fault_of, faults_named, first_line, load, text_at
 from lessons.script import Beat, Lesson
 from subdivision import Trace
@@ -174,19 +174,25 @@ def _drawn(lesson: Lesson, lines: list[int], path: Path, began: float) -> Iterat
     LessonError
         If one cannot be drawn.
     """
-    state = start(lesson)
-    for stop in stops(lesson):
-        if perf_counter() - began > DRAWING:
-            break
-        try:
-            overlay(compose(at_stop(state, stop)), 1280, 720)
-        except Exception as error:
-            raise LessonError(_undrawn(fault_of(error, path, lines[stop.beat]))) from error
+    for told in dict.fromkeys((lesson, lesson.asking(True))):
+        places = lines if told is lesson else [first_line(lesson)] * len(told.beats)
+        _draw(told, places, path, began)
     for beat, line in zip(lesson.beats, lines, strict=True):
         if not beat.claim:
             yield Fault(
                 path.name, line, text_at(path, line), "what it claims is not so", "see whether the text is true"
             )
+
+
+def _draw(lesson: Lesson, lines: list[int], path: Path, began: float) -> None:
+    """Draw the steps of a lesson whose beats are told at these lines, as long as there is time."""
+    for stop in stops(lesson):
+        if perf_counter() - began > DRAWING:
+            return
+        try:
+            overlay(compose(at_stop(State(lesson), stop)), 1280, 720)
+        except Exception as error:
+            raise LessonError(_undrawn(fault_of(error, path, lines[stop.beat]))) from error
 
 
 def _undrawn(fault: Fault) -> Fault:

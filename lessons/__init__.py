@@ -8,7 +8,6 @@ from importlib import import_module
 
 from lessons.script import Lesson
 
-
 _brought: tuple[Lesson, ...] = ()
 
 

@@ -25,7 +25,10 @@ from subdivision.schemes import CATMULL_CLARK
 def corner():
     told = trace(CATMULL_CLARK, shapes.cube(), levels={levels})
 """
-GOOD = HEAD.format(levels=1) + "    yield show(told, None, 'A cube.')\n    yield play(told, told.stages[0], 'Topology.')\n"
+GOOD = HEAD.format(levels=1) + """\
+    yield show(told, None, 'A cube.')
+    yield play(told, told.stages[0], 'Topology.')
+"""
 SAYS_NOTHING = [].append
 
 

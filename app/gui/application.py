@@ -21,7 +21,9 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QOffscreenSurface, QOpenGLContext, QSurfaceFormat
 from PySide6.QtWidgets import QApplication
 
+from app import shelf
 from app.asking import toggle_asking
+from app import shelf
 from app.draw.theme import THEMES
 from app.gui import look
 from app.gui.autosave import Autosave, folder
@@ -51,11 +53,14 @@ def run(
     as_caption: bool = False,
     opening: Callable[[State], State] = lambda state: state,
     path: Path | None = None,
+    own: Path | None = None,
+    is_trusted: bool = False,
 ) -> int:
     """Open the window at a lesson and a step (from 1), and stay until it is closed; the exit status.
 
     ``theme`` overrules the one that the window remembers.  ``opening`` leads from there to what is
-    to be open; ``path`` is the file it was in, if it was.
+    to be open; ``path`` is the file it was in, if it was.  ``own`` is a folder of lessons to open, which ``is_trusted``
+    to run or is asked for; else it is the one that was open last.
     """
     if not has_screen():
         return _refuse(NO_SCREEN)
@@ -75,6 +80,7 @@ def run(
     if path is not None:
         window.opened(path)
     window.offer_to_restore(autosave)
+    QTimer.singleShot(0, lambda: window.authoring.begin(shelf.usual_place(), own, is_trusted))
     QTimer.singleShot(0, window.viewport.start)
     signal.signal(signal.SIGINT, lambda *_: window.close())
     pulse = QTimer(interval=200)  # lets Python see Ctrl-C

@@ -1,6 +1,6 @@
 """The lessons, section by section, with a box to search them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent, QPainter, QPen, QStandardItem, QStandardItemModel
@@ -21,9 +21,14 @@ from app.gui.look import GRID, chosen_of, colour, fine, icon, px, tint_of, type_
 from app.gui.session import Session
 from app.lab import LABORATORY, SECTION
 from app.state import State, open_lesson
-from lessons.script import Lesson
+from lessons.script import OWN, Lesson
+from subdivision import Role
 
 LESSON = Qt.ItemDataRole.UserRole + 1
+RIGHT = Qt.AlignmentFlag.AlignRight
+FAULT = Qt.ItemDataRole.UserRole + 2
+"""What is wrong with the file of a lesson; empty where the version shown is the file's."""
+
 BENCH = Lesson(LABORATORY, "Your own object", SECTION, lambda: iter(()))
 """The row of the laboratory, whatever is on its table."""
 
@@ -35,6 +40,8 @@ class Contents(QWidget):
     """
 
     found = Signal()
+    asked = Signal(str)
+    """What is wrong with a file was asked for."""
 
     def __init__(self, session: Session, lessons: Iterable[Lesson]) -> None:
         super().__init__()
@@ -56,8 +63,22 @@ class Contents(QWidget):
         column.setSpacing(px(GRID))
         column.addWidget(self.search)
         column.addWidget(self.list, 1)
+        self._faults: Mapping[str, str] = {}
         self._lessons = [*lessons, BENCH]
         self._fill()
+
+    def offer(self, lessons: Iterable[Lesson], faults: Mapping[str, str], lost: Mapping[str, str]) -> None:
+        """List these lessons from now on.
+
+        ``faults`` says of some, by id, what is wrong with their file now; ``lost`` of files, by name, that never were
+        well enough to have a lesson.
+        """
+        self._faults = {**faults, **lost}
+        files = (Lesson(name, name, OWN, lambda: iter(())) for name in lost)
+        self._lessons = [*lessons, *files, BENCH]
+        self._fill()
+        self.show_state(self._session.state)
+        self.list.setCurrentIndex(self._index_of(self._session.state.lesson))
 
     def show_state(self, state: State) -> None:
         if state.lesson.id not in {each.id for each in self._lessons}:
@@ -96,7 +117,8 @@ class Contents(QWidget):
                 self._model.appendRow(heading)
             row = QStandardItem(each.title)
             row.setEditable(False)
-            row.setToolTip(each.title)
+            row.setData(self._faults.get(each.id, ""), FAULT)
+            row.setToolTip(self._faults.get(each.id) or each.title)
             row.setData(each, LESSON)
             self._model.appendRow(row)
         self._filter(self.search.text())
@@ -147,6 +169,8 @@ class Contents(QWidget):
             return
         if lesson is BENCH:
             self._session.do(enter)
+        elif lesson.id in self._faults and not lesson.beats:
+            self.asked.emit(self._faults[lesson.id])
         else:
             self._session.do(open_lesson, lesson)
 
@@ -232,10 +256,15 @@ class _Painter(QStyledItemDelegate):
             painter.drawText(place, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, number)
         face = type_face(14, QFont.Weight.DemiBold if is_open else QFont.Weight.Normal)
         room = box.adjusted(px((4 if number else 1) * GRID), 0, -px(4), 0)
+        room = room.adjusted(0, 0, -px(2 * GRID), 0) if index.data(FAULT) else room
         cut = QFontMetrics(face).elidedText(title, Qt.TextElideMode.ElideRight, room.width())
         painter.setFont(face)
         painter.setPen(ink)
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, cut)
+        if index.data(FAULT):
+            painter.setFont(type_face(14, QFont.Weight.Bold))
+            painter.setPen(colour(theme.roles[Role.FACE]))
+            painter.drawText(box.adjusted(0, 0, -px(GRID), 0), Qt.AlignmentFlag.AlignVCenter | RIGHT, "!")
         painter.restore()
 
 

@@ -18,15 +18,15 @@ if TYPE_CHECKING:
     from app.gui.window import Window
 
 MENUS = (
-    ("File", ("open", "@Recent", "", "save", "save_as", "copy_link", "paste_link", "", "save_picture", "copy", "export",
-              "page", "", "quit")),
+    ("File", ("open", "@Recent", "lessons_folder", "", "save", "save_as", "copy_link", "paste_link", "",
+              "save_picture", "copy", "export", "page", "", "quit")),
     ("Edit", ("undo", "redo", "", *(edit[0] for edit in EDITS), "", *(turn[0] for turn in SHARPNESS))),
     ("View", ("@Theme", "reduced_motion", "", *(option for option, _, _ in SHOWN), "",
               *(option for option, _, _ in SWITCHES), "surface_next", "", *(f"across_{k}" for k in ACROSS), "",
               "camera", "contents", "shown")),
     ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "more", "less",
                 "more_2", "less_2", "", "through",
-                "@Speed", "", "asking", "take_back", "", "search", "@Lessons")),
+                "@Speed", "", "asking", "take_back", "", "search", "@Lessons", "", "new_lesson", "show_folder")),
     ("Present", ("present", "presenter", "blank", "", "laser", "magnifier")),
     ("Help", ("keys", "about")),
 )  # fmt: skip

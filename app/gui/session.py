@@ -66,6 +66,15 @@ class Session(QObject):
             self._gesture = transition
         self._become(after)
 
+    def rewrite(self, transition: Transition, *args: Any) -> None:
+        """Apply a transition to the state and to all that can be undone and redone: what it was told from has changed."""
+        self._past = [transition(each, *args) for each in self._past]
+        self._future = [transition(each, *args) for each in self._future]
+        after = transition(self.state, *args)
+        if after is not self.state:
+            self._gesture = None
+            self._become(after)
+
     def let_go(self) -> None:
         """The hand lets go: the next drag, scrub or turn is another change."""
         self._gesture = None

@@ -31,6 +31,7 @@ from app.asking import toggle_asking
 from app.draw.theme import THEMES
 from app.export.wish import Wish
 from app.gui import menus, saving
+from app.gui.authoring import Authoring
 from app.gui.autosave import Autosave
 from app.gui.banner import Banner
 from app.gui.contents import Contents
@@ -47,6 +48,7 @@ from app.gui.notes import Notes
 from app.gui.opening import Opener
 from app.gui.parts import Section, column
 from app.gui.presenter import Presenter, spare_screen
+from app.gui.recorder import Recorder
 from app.gui.session import Session
 from app.gui.sheets import About, Keys
 from app.gui.shown import Shown
@@ -75,6 +77,7 @@ class Window(QMainWindow):
     """Builds the parts, hands them every state, and does what is not a change of state."""
 
     session: Session
+    authoring: Authoring
     viewport: Viewport
     _body: QWidget
     _sides: dict[str, QWidget]
@@ -96,6 +99,9 @@ class Window(QMainWindow):
         self._splitter.setSizes([LEFT, 10_000, RIGHT])
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
         self.opener = Opener(session, self.banner, self.opened)
+        self.authoring = Authoring(self, Path(settings.fileName()).with_name("lessons.json"))
+        self.recorder = Recorder(self)
+        self.contents.asked.connect(self.banner.say)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
@@ -581,6 +587,7 @@ class Window(QMainWindow):
             return
         self.session.stop()
         self.exporter.stop()
+        self.authoring.stop()
         self.session.changed.disconnect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.disconnect(self._follow_system)
         QApplication.instance().removeEventFilter(self._guard)  # type: ignore[union-attr]
