@@ -14,6 +14,7 @@ def keep_log() -> Path:
     path = user_log_path("subdivision-studio", appauthor=False) / "studio.log"
     root = logging.getLogger()
     root.setLevel(logging.INFO)
+    logging.raiseExceptions = False  # a disk that is full would print a traceback for every line
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handler: logging.Handler = RotatingFileHandler(path, maxBytes=1_000_000, backupCount=2, encoding="utf-8")

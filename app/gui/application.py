@@ -1,13 +1,15 @@
 """Brings up the process in the order Qt and VTK need, and sees to it that no traceback reaches the user."""
 
 import ctypes
+import faulthandler
 import logging
 import os
 import signal
 import sys
 from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
 from pathlib import Path
-from types import TracebackType
 
 os.environ["QT_API"] = "pyside6"  # before pyvistaqt asks
 
@@ -17,16 +19,17 @@ from PySide6.QtCore import (
     QTimer,
     QtMsgType,
     qInstallMessageHandler,
+    qVersion,
 )
-from PySide6.QtGui import QOffscreenSurface, QOpenGLContext, QSurfaceFormat
+from PySide6.QtGui import QGuiApplication, QOffscreenSurface, QOpenGLContext, QSurfaceFormat
 from PySide6.QtWidgets import QApplication
 
 from app import shelf
 from app.asking import toggle_asking
-from app import shelf
 from app.draw.theme import THEMES
-from app.gui import look
+from app.gui import look, lost
 from app.gui.autosave import Autosave, folder
+from app.gui.fault import Faults
 from app.gui.look import system_theme
 from app.gui.session import Session
 from app.gui.window import NAME, Window
@@ -35,15 +38,15 @@ from app.state import Options, State, choose, open_lesson, start
 from lessons import all_lessons
 from lessons.script import Lesson
 
+GL_RENDERER, GL_VERSION = 0x1F01, 0x1F02
 NO_SCREEN = (
     "there is no screen to open the window on (DISPLAY and WAYLAND_DISPLAY lead nowhere). "
     "'subdivision-studio figures' draws the lessons to files without one."
 )
 NO_OPENGL = (
     "the window needs OpenGL 3.2, and this screen does not offer it. Update the graphics driver, or install Mesa "
-    "(Debian: sudo apt-get install libgl1-mesa-dri)."
+    "(Debian: sudo apt-get install libgl1-mesa-dri). 'subdivision-studio figures' draws without it."
 )
-BUG = "Something went wrong inside the program. Your lesson is still open; the details are in {log}."
 
 
 def run(
@@ -72,8 +75,9 @@ def run(
     state = first_state(lesson, step, theme or settings_theme(settings), as_caption)
     state = state if settings.value("asking", "on") == "off" else toggle_asking(state)
     state = opening(choose(state, reduced_motion=settings.value("reduced_motion", "off") == "on"))
+    state = choose(state, scale=settings_scale(settings))
     window = Window(Session(state), settings)
-    catch_everything(window, log)
+    faults = catch_everything(window, log)
     autosave = Autosave(window.session, folder())
     autosave.failed.connect(window.say)
     window.show()
@@ -86,8 +90,11 @@ def run(
     pulse = QTimer(interval=200)  # lets Python see Ctrl-C
     pulse.timeout.connect(lambda: None)
     pulse.start()
+    hear_qt(autosave.keep_now)
+    QTimer.singleShot(0, lambda: lost.watch(autosave.keep_now))  # after Qt and VTK, who would take its place
     status = int(app.exec())
     autosave.end()
+    faults.leave()
     return status
 
 
@@ -136,6 +143,12 @@ def settings_theme(settings: QSettings) -> str:
     return theme if theme in THEMES else "light"
 
 
+def settings_scale(settings: QSettings) -> float:
+    """The interface scale that the window remembers."""
+    kept = str(settings.value("scale", "100"))
+    return next((scale for scale in look.SCALES if f"{scale:.0%}" == f"{kept}%"), 1.0)
+
+
 # -- screens ----------------------------------------------------------------------------------
 
 
@@ -169,14 +182,22 @@ def _has_x11() -> bool:
 
 def has_opengl() -> bool:
     """Whether the screen offers the OpenGL that VTK needs."""
+    return opengl()[0] >= (3, 2)
+
+
+@cache
+def opengl() -> tuple[tuple[int, int], str]:
+    """The version of OpenGL that the screen offers, (0, 0) if none; and who makes it, in its own words."""
     context = QOpenGLContext()
     surface = QOffscreenSurface()
     surface.create()
     if not context.create() or not context.makeCurrent(surface):
-        return False
-    version = context.format().version()
+        return (0, 0), "none"
+    functions = context.functions()
+    words = ", ".join(str(functions.glGetString(which)) for which in (GL_RENDERER, GL_VERSION))
+    major, minor = context.format().version()
     context.doneCurrent()
-    return tuple(version) >= (3, 2)
+    return (major, minor), words
 
 
 def _refuse(sentence: str) -> int:
@@ -192,20 +213,23 @@ def settings_file() -> QSettings:
     return QSettings(QSettings.Format.IniFormat, QSettings.Scope.UserScope, "Subdivision Studio", "window")
 
 
-def catch_everything(window: Window, log: Path) -> None:
-    """Faults become a sentence in the window and a traceback in the log."""
+def catch_everything(window: Window, log: Path) -> Faults:
+    """Faults become a dialog with a report, and a traceback in the log; what ends the process leaves one there too."""
+    with suppress(OSError):
+        faulthandler.enable(log.with_name("crash.log").open("a"))
+    more = {"Qt": qVersion(), "Windows by": QGuiApplication.platformName(), "OpenGL": opengl()[1]}
+    faults = Faults(window, log, more)
+    faults.listen()
+    return faults
 
-    def caught(kind: type[BaseException], fault: BaseException, trace: TracebackType | None) -> None:
-        if issubclass(kind, KeyboardInterrupt):
-            window.close()
-            return
-        LOG.critical("uncaught", exc_info=(kind, fault, trace))
-        window.session.stop()
-        window.say(BUG.format(log=log))
+
+def hear_qt(last: Callable[[], None]) -> None:
+    """What Qt has to say goes to the log; when it says that the screen is lost, ``last`` is done and all ends."""
 
     def heard(kind: QtMsgType, context: QMessageLogContext, message: str) -> None:
         bad = kind in (QtMsgType.QtWarningMsg, QtMsgType.QtCriticalMsg, QtMsgType.QtFatalMsg)
         LOG.log(logging.WARNING if bad else logging.DEBUG, "Qt: %s", message)
+        if lost.is_lost(message):
+            lost.end(last)
 
-    sys.excepthook = caught
     qInstallMessageHandler(heard)

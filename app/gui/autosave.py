@@ -14,12 +14,16 @@ from app.gui.session import Session, is_same_picture
 from app.keeping import SUFFIX, read, taken_up, write
 from app.state import State
 from app.strict import KeepingError
+from subdivision.words import phrase
 
 SOON = 2000
 """Milliseconds after a change at which it is kept."""
 
 PATIENCE = 5000
 """Milliseconds that the end of the program waits for the disk."""
+
+AGAIN = 20_000
+"""Milliseconds after which what could not be kept is tried once more: disks are emptied."""
 
 OLD = 3600.0
 """Seconds after which half a file is nobody's any more."""
@@ -42,16 +46,19 @@ class Autosave(QObject):
     failed = Signal(str)
     """Why changes are not kept; said once."""
 
+    _unkept = Signal(str)
+
     def __init__(self, session: Session, folder: Path) -> None:
         super().__init__()
         self._session, self._folder = session, folder
-        self._kept = session.state
+        self._kept: State | None = session.state
         self._path = folder / f"{secrets.token_hex(8)}{SUFFIX}"
         self._lock: QLockFile | None = None
         self._has_failed = False
         self._writer = QThreadPool(maxThreadCount=1)
         self._soon = QTimer(self, singleShot=True, interval=SOON)
         self._soon.timeout.connect(self.keep)
+        self._unkept.connect(self._fail)
         self._left = _left_over(folder)
         session.changed.connect(self._noticed)
 
@@ -75,9 +82,14 @@ class Autosave(QObject):
     def keep(self) -> None:
         """Write what has changed, now."""
         state = self._session.state
-        if not is_same_picture(state, self._kept):
+        if self._kept is None or not is_same_picture(state, self._kept):
             self._kept = state
             self._writer.start(lambda: self._write(state))
+
+    def keep_now(self) -> None:
+        """Write what has changed and wait until it is there: the program is about to end."""
+        self.keep()
+        self._writer.waitForDone(PATIENCE)
 
     def end(self) -> None:
         """The program has ended well: there is nothing to restore."""
@@ -91,27 +103,40 @@ class Autosave(QObject):
             lock.unlock()
 
     def _noticed(self, _: State) -> None:
-        if not self._soon.isActive():
-            self._soon.start()
+        if not self._soon.isActive() or self._soon.interval() != SOON:
+            self._soon.start(SOON)
 
     def _write(self, state: State) -> None:
         try:
-            if self._lock is None:
-                self._folder.mkdir(parents=True, exist_ok=True)
-                self._lock = _locked(self._path)
+            self._take_place()
             write(self._path, state)
         except (KeepingError, OSError) as fault:
             LOG.warning("not kept: %s", fault)
-            if not self._has_failed:
-                self._has_failed = True
-                self.failed.emit(str(fault))
+            self._unkept.emit(str(fault))
+
+    def _take_place(self) -> None:
+        """The folder and the lock, which somebody may have cleared away since."""
+        self._folder.mkdir(parents=True, exist_ok=True)
+        if self._lock is not None and self._path.with_suffix(".lock").exists():
+            return
+        if self._lock is not None:
+            self._lock.unlock()  # before another takes its name
+        if (lock := _locked(self._path)) is None:
+            raise KeepingError(phrase("{folder} cannot be written to; mend its permissions", folder=self._folder))
+        self._lock = lock
+
+    def _fail(self, sentence: str) -> None:
+        self._kept = None
+        self._soon.start(AGAIN)
+        if not self._has_failed:
+            self._has_failed = True
+            self.failed.emit(sentence)
 
 
 def _left_over(folder: Path) -> dict[Path, QLockFile]:
     """What crashed programs have left, the newest first, and the locks that make it ours; the rest is cleared away."""
     found = {}
-    for each in folder.glob("*.lock"):
-        path = each.with_suffix(SUFFIX)
+    for path in {each.with_suffix(SUFFIX) for each in (*folder.glob("*.lock"), *folder.glob(f"*{SUFFIX}"))}:
         if (lock := _locked(path)) is None:
             continue  # its program runs
         if path.exists():

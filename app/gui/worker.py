@@ -1,6 +1,6 @@
 """Work that takes long, done off the window's thread: reading a file, telling a large object."""
 
-import logging
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -16,8 +16,6 @@ PATIENCE = 100
 
 REFUSALS = (FileError, KeepingError, TopologyError)
 """Faults that are sentences for the user."""
-
-LOG = logging.getLogger(__name__)
 
 
 class Worker(QObject):
