@@ -5,7 +5,7 @@ from typing import Any, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-Indices: TypeAlias = NDArray[np.intp]
+Indices: TypeAlias = NDArray[np.signedinteger[Any]]
 Floats: TypeAlias = NDArray[np.float64]
 Mask: TypeAlias = NDArray[np.bool_]
 Scalar = TypeVar("Scalar", bound=np.generic)
@@ -24,6 +24,38 @@ def columns(*parts: Indices) -> Indices:
     for k, part in enumerate(parts):
         table[:, k] = part
     return table.ravel()
+
+
+def short(n: int) -> type[np.signedinteger[Any]]:
+    """The type of numbers below ``n``: what is half as long is written in half the time."""
+    return np.int32 if n < 2**31 else np.int64
+
+
+def constant(value: float, n: int) -> NDArray[Any]:
+    """``n`` times the same, kept once."""
+    return np.broadcast_to(np.asarray(value), n)
+
+
+def turned(rows: NDArray[Scalar], by: int) -> NDArray[Scalar]:
+    """Every entry of (n, k, ...) is the one ``by`` (1 or -1) further on in its row, round and round."""
+    out = np.empty_like(rows)
+    if by == 1:
+        out[:, :-1], out[:, -1] = rows[:, 1:], rows[:, 0]
+    else:
+        out[:, 1:], out[:, 0] = rows[:, :-1], rows[:, -1]
+    return out
+
+
+def stable_order(key: Indices, below: int) -> Indices:
+    """What sorts ``key``, (n,) int from 0 and ``below``, equal ones in their order; packed with places if they fit."""
+    bits = len(key).bit_length()
+    if below >= 2 ** (63 - bits):
+        return np.argsort(key, kind="stable")
+    packed = key << bits
+    packed |= np.arange(len(key))
+    packed.sort()
+    packed &= 2**bits - 1
+    return packed
 
 
 def taken(array: NDArray[Scalar], index: Indices) -> NDArray[Scalar]:

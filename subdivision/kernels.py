@@ -2,7 +2,8 @@
 
 The stages of a scheme say the same in words; tests hold the two together.  What distinguishes
 a scheme from the others that refine alike is its ``reach``; all else follows from the
-topology, and nothing is sorted or searched.
+topology, and nothing is sorted or searched.  ``later`` has steps from what a step has made,
+whose half-edges are known without being asked.
 """
 
 from collections.abc import Callable
@@ -16,7 +17,7 @@ from scipy.sparse import _sparsetools, csr_array, diags_array, vstack
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, taken
 from subdivision.exact import Exact
-from subdivision.sharpness import CORNER, CREASE, SMOOTH, vertex_rules
+from subdivision.sharp_rows import SharpRows, sharp_rows
 from subdivision.topology import Topology
 
 Small = NDArray[np.int32]
@@ -24,24 +25,33 @@ Reach = Callable[[int], Exact | int]
 """Valence -> how far a smooth vertex goes to the mean of its ring."""
 
 
-@dataclass(frozen=True, eq=False)
-class Sharp:
-    """What sharpness changes.
+@dataclass(frozen=True)
+class Rule:
+    """A scheme, as far as speed is concerned: how many corners the faces have that it makes, and its reach."""
 
-    Attributes
-    ----------
-    edges, ends, share : (n,) int, (n, 2) int, (n, 1) float
-        Sharp edges go ``share`` of the way to their midpoints.
-    at, towards, weight : (m,) int, (m,) int, (m,) float
-        Vertices on creases hold so much of a neighbour.
-    """
+    size: int
+    reach: Reach
 
-    edges: Indices
-    ends: Indices
-    share: Floats
-    at: Small
-    towards: Small
-    weight: Floats
+    def each(self, n: int) -> float:
+        """What each corner of a smooth vertex of valence ``n`` weighs: the neighbour along it, in quads its face too.
+
+        Half of the ring of a quad mesh are neighbours, half the points of faces around; of a triangle mesh all
+        are neighbours.
+        """
+        return _number(self.reach, n) / n / self.brought
+
+    @property
+    def brought(self) -> int:
+        """How many points of its ring a corner brings to its vertex."""
+        return 2 if self.size == 4 else 1
+
+    def corners(self, counts: Indices) -> Floats:
+        """``each`` for many numbers of corners; 0 for none."""
+        table = np.zeros(int(counts.max(initial=0)) + 1)
+        present = np.flatnonzero(np.bincount(counts))
+        for n in present[present > 0]:
+            table[n] = self.each(int(n))
+        return table[counts]
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +71,7 @@ class Kernel:
         3/8 and 1/8 for triangles.  Vertices are brought the same part.
     own, corner : (n_vertices,) float
         How much a vertex holds of itself, and of what each of its corners brings.
-    sharp : Sharp or None
+    sharp : SharpRows or None
         None where everything is smooth.
     """
 
@@ -76,7 +86,7 @@ class Kernel:
     part: Floats
     own: Floats
     corner: Floats
-    sharp: Sharp | None
+    sharp: SharpRows | None
 
     @property
     def n_points(self) -> int:
@@ -99,18 +109,12 @@ class Kernel:
         vertices *= self.corner[:, None]
         vertices += self.own[:, None] * points
         if self.sharp:
-            midpoints = points[self.sharp.ends].mean(axis=1)
-            edges[self.sharp.edges] += self.sharp.share * (midpoints - edges[self.sharp.edges])
-            _add(self.sharp.at, self.sharp.towards, self.sharp.weight, points, vertices)
+            self.sharp.apply(points, vertices, edges)
         return made
 
     def refined(self) -> Topology:
-        """The topology after the step: its corners now, the rest if it is asked for."""
-        t = self.coarse
-        split, corners = (
-            (refine.quads, refine.quad_corners) if self.size == 4 else (refine.triangles, refine.triangle_corners)
-        )
-        return refine.deferred(t, lambda: split(t), corners(t), self.size, self.n_points)
+        """The topology after the step."""
+        return refine.quads(self.coarse) if self.size == 4 else refine.triangles(self.coarse)
 
     def _face_points(self, points: Floats, out: Floats) -> None:
         n, d = out.shape
@@ -127,69 +131,25 @@ class Kernel:
         )
 
 
-@dataclass(frozen=True)
-class Rule:
-    """A scheme, as far as speed is concerned: how many corners the faces have that it makes, and its reach."""
-
-    size: int
-    reach: Reach
-
-    def kernel(self, t: Topology) -> Kernel:
-        """One step on ``t``.
-
-        Half of the ring of a quad mesh are neighbours, half the points of faces around; of a triangle mesh all
-        are neighbours.
-        """
-        brought = 2 if self.size == 4 else 1
-        return _kernel(t, self.size, _reached(t, self.reach) / brought, brought)
-
-
-def is_smooth(t: Topology) -> bool:
-    """Whether nothing is sharp, so that all points are smooth."""
-    return not (t.edge_sharpness.any() or t.vertex_sharpness.any())
-
-
-def _kernel(t: Topology, size: int, corner: Floats, brought: int) -> Kernel:
-    """``corner`` is what each corner of a smooth vertex weighs, for each of the points ``brought`` there."""
-    ends, part = (1 / 4, 1 / 4) if size == 4 else (3 / 8, 1 / 8)
-    own = 1 - brought * corner * np.bincount(t.origin, minlength=t.n_vertices)
-    sharp = None
-    if not is_smooth(t):
-        own, corner, sharp = _sharpened(t, own, corner)
-    behind = taken(t.origin, t.prev) if size == 3 else t.origin[:0]
-    start = np.concatenate([[0], np.cumsum(t.face_sizes)])
+def kernel(t: Topology, rule: Rule) -> Kernel:
+    """One step on ``t``."""
+    ends, part = (1 / 4, 1 / 4) if rule.size == 4 else (3 / 8, 1 / 8)
+    counts = np.bincount(t.origin, minlength=t.n_vertices)
+    corner = rule.corners(counts)
     return Kernel(
         t,
-        size,
+        rule.size,
         origin=_small(t.origin),
         edge=_small(t.edge),
         ahead=_small(taken(t.origin, t.next)),
-        behind=_small(behind),
-        start=_small(start),
+        behind=_small(refine.before(t, t.origin) if rule.size == 3 else t.origin[:0]),
+        start=_small(np.concatenate([[0], np.cumsum(t.face_sizes)])),
         ends=np.full(t.n_halfedges, ends),
         part=np.full(t.n_halfedges, part),
-        own=own,
+        own=1 - rule.brought * corner * counts,
         corner=corner / part,
-        sharp=sharp,
+        sharp=sharp_rows(t),
     )
-
-
-def _sharpened(t: Topology, own: Floats, corner: Floats) -> tuple[Floats, Floats, Sharp]:
-    """The same for vertices that follow other rules, and the rest of those rules."""
-    rules = vertex_rules(t)
-    parts = [(rules.now, rules.stays, rules.sharp_now), (rules.then, 1 - rules.stays, rules.sharp_then)]
-    smooth, keep, crease = (
-        sum(share * (rule == kind) for rule, share, _ in parts) for kind in (SMOOTH, CORNER, CREASE)
-    )
-    ends = [t.ends[sharp] for _, _, sharp in parts]
-    at = np.concatenate([pair.T.ravel() for pair in ends])
-    towards = np.concatenate([pair[:, ::-1].T.ravel() for pair in ends])
-    along = [share * (rule == CREASE) for rule, share, _ in parts]
-    weight = np.concatenate([held[pair.T.ravel()] / 8 for held, pair in zip(along, ends, strict=True)])
-    edges = np.flatnonzero(t.edge_sharpness)
-    share = np.minimum(t.edge_sharpness[edges], 1)[:, None]
-    sharp = Sharp(edges, t.ends[edges], share, _small(at), _small(towards), weight)
-    return smooth * own + keep + 3 / 4 * crease, smooth * corner, sharp
 
 
 @lru_cache(maxsize=1024)
@@ -197,22 +157,12 @@ def _number(reach: Reach, n: int) -> float:
     return float(reach(n))
 
 
-def _reached(t: Topology, reach: Reach) -> Floats:
-    """(n_vertices,) float: an equal share of ``reach`` for each corner of a vertex."""
-    counts = np.bincount(t.origin, minlength=t.n_vertices)
-    table = np.zeros(int(counts.max(initial=0)) + 1)
-    present = np.flatnonzero(np.bincount(counts))
-    for n in present[present > 0]:
-        table[n] = _number(reach, int(n)) / n
-    return table[counts]
-
-
 def _add(at: Small, of: Small, weight: Floats, points: Floats, out: Floats) -> None:
     _sparsetools.coo_matmat_dense(len(at), out.shape[1], at, of, weight, points.reshape(-1), out.reshape(-1))
 
 
 def _small(indices: Indices) -> Small:
-    return indices.astype(np.int32)
+    return indices.astype(np.int32, copy=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,9 +198,5 @@ def assembled(k: Kernel) -> Rows:
         edges = edges + csr_array((k.part, (k.edge, k.behind)), shape=(E, V))
     vertices = csr_array(diags_array(k.own) + diags_array(k.corner) @ vertices)
     if k.sharp:
-        share = np.zeros(E)
-        share[k.sharp.edges] = k.sharp.share.ravel()
-        halves = np.repeat(k.sharp.share.ravel() / 2, 2), (np.repeat(k.sharp.edges, 2), k.sharp.ends.ravel())
-        edges = csr_array(diags_array(1 - share) @ edges + csr_array(halves, shape=(E, V)))
-        vertices = vertices + csr_array((k.sharp.weight, (k.sharp.at, k.sharp.towards)), shape=(V, V))
+        vertices, edges = k.sharp.assembled(vertices, edges)
     return Rows(csr_array(vstack([vertices, *blocks, edges], format="csr")))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from subdivision.arrays import Indices
+from subdivision.arrays import Indices, stable_order
 from subdivision.words import phrase
 
 
@@ -48,7 +48,7 @@ def require_faces(sizes: Indices, origin: Indices, face: Indices, n_vertices: in
 def paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Indices, Indices]:
     """Twin and edge of the half-edges from ``a`` to ``b``, and the ends of the edges: the only search there is."""
     key = np.minimum(a, b) * n + np.maximum(a, b)
-    order = np.argsort(key, kind="stable")
+    order = stable_order(key, n * n)
     first = np.r_[True, np.diff(key[order]) != 0]
     start = np.flatnonzero(first)
     count = np.diff(np.r_[start, len(key)])

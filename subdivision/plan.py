@@ -6,13 +6,14 @@ no kernel are told in stages, which all of this is tested against.
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, frozen
-from subdivision.kernels import Kernel, Rows, Rule, assembled
+from subdivision.kernels import Kernel, Rows, Rule, assembled, kernel
+from subdivision.later import Later, later
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
@@ -47,7 +48,7 @@ class Plan:
     """
 
     topology: Connectivity
-    steps: tuple[Kernel | Rows | Step | Tables, ...]
+    steps: tuple[Kernel | Later | Rows | Step | Tables, ...]
     whole: Floats | None = None
 
     def apply(self, points: Floats, out: Floats | None = None) -> Floats:
@@ -99,15 +100,16 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     if rule is None or not isinstance(t, Topology) or scheme.refinement is None:
         return _staged(t, scheme, levels)
     fine = scheme.refinement.faces(t, levels) if levels else 0
-    steps: list[Kernel] = []
+    steps: list[Kernel | Later] = []
+    before = t
     while len(steps) < levels:
         depth = levels - len(steps)
         if steps and 1 < depth <= DEEPEST and fine > WORTH_TABLES:
             deep = tables(t, depth, rule, at_most=min(t.n_faces // FACES_A_KIND, fine // FINE_FACES_A_KIND))
             if deep:
                 return Plan(_renumbered(deep), (*steps, deep))
-        steps.append(rule.kernel(t))
-        t = steps[-1].refined()
+        steps.append(later(before, t, rule) if steps else kernel(t, rule))
+        before, t = t, steps[-1].refined()
     return Plan(t, tuple(steps))
 
 
@@ -131,7 +133,10 @@ def _staged(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
 def _renumbered(deep: Tables) -> Topology:
     """The outcome: as the stages make it, but for the numbers of the vertices."""
     size = deep.coarse.n_halfedges // deep.coarse.n_faces
-    return refine.deferred(deep.coarse, lambda: _refined(deep), deep.origin, size, deep.n_points)
+    refined = lru_cache(lambda: _refined(deep))
+    names = ("twin", "edge", "edge_sharpness", "vertex_sharpness", "hidden")
+    make = {name: partial(lambda name: getattr(refined(), name), name) for name in names}
+    return refine.deferred(deep.coarse, make, deep.origin, size, deep.n_points)
 
 
 def _refined(deep: Tables) -> Topology:

@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, taken
-from subdivision.kernels import is_smooth
+from subdivision.sharp_rows import creases
 from subdivision.topology import Topology
 
 LARGEST_FAN = 32
@@ -284,9 +284,9 @@ def _fans(t: Topology, counts: Indices) -> tuple[Indices, list[Fan]]:
     rank = np.zeros(len(counts) and int(counts.max()) + 1, dtype=np.intp)
     rank[smooth] = np.arange(len(smooth))
     code = rank[code]
-    if not is_smooth(t):
-        special = t.vertex_sharpness > 0
-        special[t.ends[t.edge_sharpness > 0]] = True
+    if not t.is_smooth:
+        special = np.zeros(t.n_vertices, dtype=bool)
+        special[creases(t).vertices] = True
         at = np.flatnonzero(special[t.origin])
         seen, which = np.unique(_features(t, at, int(counts.max())), axis=0, return_inverse=True)
         code[at] = len(fans) + which.ravel()

@@ -8,16 +8,29 @@ vertex takes a share of both rules: as much of the old one as sharpness is left,
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask
 from subdivision.operators import Operator, mix
 from subdivision.refine import worn
-from subdivision.topology import Topology
 from subdivision.weights import Weights, by_value
 
 SMOOTH, CREASE, CORNER = 0, 1, 2
+
+
+class Sharpened(Protocol):
+    """A mesh, as far as its sharpness is concerned."""
+
+    @property
+    def n_vertices(self) -> int: ...
+    @property
+    def ends(self) -> Indices: ...
+    @property
+    def edge_sharpness(self) -> Floats: ...
+    @property
+    def vertex_sharpness(self) -> Floats: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,14 +54,14 @@ class VertexRules:
     sharp_then: Mask
 
 
-def vertex_rules(t: Topology) -> VertexRules:
+def vertex_rules(t: Sharpened) -> VertexRules:
     """The rules of one step on ``t``."""
     edges, vertices = t.edge_sharpness, t.vertex_sharpness
     now, then = _rule(t, vertices, edges), _rule(t, worn(vertices), worn(edges))
     return VertexRules(now, then, np.where(now == then, 1.0, _remaining(t)), edges > 0, worn(edges) > 0)
 
 
-def edge_share(t: Topology) -> Weights:
+def edge_share(t: Sharpened) -> Weights:
     """How much of every edge point is the plain midpoint: sharpness, at most 1."""
     return by_value(np.minimum(t.edge_sharpness, 1))
 
@@ -68,13 +81,13 @@ def _chosen(rule: Indices, smooth: Operator, crease: Operator, corner: Operator)
     return mix(by_value(rule == SMOOTH), smooth, sharp)
 
 
-def _rule(t: Topology, vertices: Floats, edges: Floats) -> Indices:
+def _rule(t: Sharpened, vertices: Floats, edges: Floats) -> Indices:
     sharp_edges = np.bincount(t.ends[edges > 0].ravel(), minlength=t.n_vertices)
     rule = np.select([sharp_edges < 2, sharp_edges == 2], [SMOOTH, CREASE], CORNER)
     return np.where(vertices > 0, CORNER, rule)
 
 
-def _remaining(t: Topology) -> Floats:
+def _remaining(t: Sharpened) -> Floats:
     """The mean sharpness of what turns smooth after this step, at most 1 (every such value is at most 1)."""
     edges = np.where(t.edge_sharpness <= 1, t.edge_sharpness, 0)
     fading = np.where(t.vertex_sharpness <= 1, t.vertex_sharpness, 0)

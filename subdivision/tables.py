@@ -16,7 +16,7 @@ import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, taken
-from subdivision.kernels import Rule
+from subdivision.kernels import Rule, kernel
 from subdivision.rings import Kind, sorted_faces, unfolded, with_ring
 from subdivision.topology import Topology
 
@@ -26,6 +26,7 @@ AT_ONCE = 2048
 _remembered: dict[tuple[Kind, int, Rule], Floats] = {}
 """Tables of smooth kinds, which other meshes have, too."""
 REMEMBERED_AT_MOST = 256
+
 
 @dataclass(frozen=True, eq=False)
 class Template:
@@ -278,7 +279,7 @@ def _computed(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
         if level:
             t, kept, ours = with_ring(t, ours)
             points = points[kept]
-        step = rule.kernel(t)
+        step = kernel(t, rule)
         points, ours = step.apply(points), ours[t.face] if k == 4 else np.concatenate([ours[t.face], ours])
         t = step.refined()
     first, each = descendants(k, len(kinds), depth)

@@ -71,20 +71,21 @@ class Topology:
                 object.__setattr__(self, field.name, frozen(getattr(self, field.name)))
 
     @classmethod
-    def deferred(cls, build: Callable[[], Self], **known: Any) -> Self:
-        """What ``build`` makes, made when more is asked of it than the attributes already ``known``."""
+    def deferred(cls, make: Mapping[str, Callable[[], Any]], **known: Any) -> Self:
+        """Attributes ``known`` now, and others to ``make`` one by one when they are asked for."""
         t = cls.__new__(cls)
-        t.__dict__.update(known, _build=build)
+        t.__dict__.update({name: frozen(v) if isinstance(v, np.ndarray) else v for name, v in known.items()})
+        t.__dict__["_make"] = make
         return t
 
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            build = self.__dict__.get("_build")
-            if build is None or name not in self.__dataclass_fields__:
+            make = self.__dict__.get("_make", {}).get(name)
+            if make is None:
                 raise AttributeError(f"a {type(self).__name__} has no attribute '{name}'")
-            self.__dict__.update(vars(build()) | self.__dict__)
-            return self.__dict__[name]
+            made = self.__dict__[name] = frozen(make())
+            return made
 
     @classmethod
     def from_faces(
@@ -126,6 +127,7 @@ class Topology:
         corners: Mapping[int, float] | None = None,
     ) -> Self:
         """Build connectivity from face ``sizes`` (n_faces,) int and their corners laid end to end."""
+        sizes, origin = sizes.astype(np.intp, copy=False), origin.astype(np.intp, copy=False)
         n = n_vertices if n_vertices is not None else int(origin.max(initial=-1)) + 1
         face = np.repeat(np.arange(len(sizes)), sizes)
         require_faces(sizes, origin, face, n)
@@ -168,9 +170,14 @@ class Topology:
     @cached_property
     def prev(self) -> Indices:
         """(n_halfedges,) int: the inverse permutation of ``next``."""
-        prev = np.empty_like(self.next)
-        prev[self.next] = np.arange(self.n_halfedges)
+        prev, end = np.arange(-1, self.n_halfedges - 1), np.cumsum(self.face_sizes)
+        prev[end - self.face_sizes] = end - 1
         return frozen(prev)
+
+    @cached_property
+    def is_smooth(self) -> bool:
+        """Whether nothing is sharp."""
+        return not (self.edge_sharpness.any() or self.vertex_sharpness.any())
 
     @cached_property
     def ends(self) -> Indices:

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from subdivision import Boundary, Grid, Mesh, Plan, Polyline, Scheme, Topology, TopologyError, plan, shapes, subdivide
 from subdivision.arrays import Floats
 from subdivision.kernels import Kernel, Rows
+from subdivision.later import Later
 from subdivision.schemes import CATMULL_CLARK, LOOP, QUAD_CENTROID, SCHEMES, lane_riesenfeld, tensor_product
 from subdivision.stage import Step
 from subdivision.tables import Tables, descendants, template
@@ -70,7 +71,7 @@ def test_kernels_make_the_points_of_the_stages(scheme: Scheme) -> None:
     for name, mesh in meshes(scheme):
         for levels in (0, 1, 3):
             made = plan(mesh.topology, scheme, levels)
-            assert all(isinstance(step, Kernel | Rows) for step in made.steps)
+            assert all(isinstance(step, Kernel | Later | Rows) for step in made.steps)
             assert_same(made, made.apply(mesh.points), staged(mesh, scheme, levels), f"{name}, {levels} levels")
             assert np.array_equal(made.numbers, np.arange(len(made.numbers)))
             fine = subdivide(mesh, scheme, levels).points  # by kernels, which are not assembled for one use
@@ -160,7 +161,7 @@ def test_meshes_no_table_can_unfold_are_made_step_by_step() -> None:
     spindle = shapes.quad_bipyramid(40)
     for mesh in (two_faces, spindle):
         made = plan(mesh.topology, CATMULL_CLARK, 5)
-        assert all(isinstance(step, Kernel | Rows) for step in made.steps)
+        assert all(isinstance(step, Kernel | Later | Rows) for step in made.steps)
         assert_same(made, made.apply(mesh.points), staged(mesh, CATMULL_CLARK, 5), "step by step")
 
 
@@ -175,7 +176,8 @@ def test_the_rest_of_a_topology_is_made_when_it_is_asked_for() -> None:
     assert {"origin", "face_sizes", "hidden"} <= set(vars(fine))
     assert not {"twin", "edge", "next"} & set(vars(fine))
     assert fine.euler == 2
-    assert "twin" in vars(fine)
+    assert not {"twin", "edge", "next"} & set(vars(fine))
+    assert np.array_equal(fine.twin[fine.twin], np.arange(fine.n_halfedges))
     assert fine.with_boundary(Boundary.HIDE).n_faces == fine.n_faces
     with pytest.raises(AttributeError, match="nonsense"):
         _ = fine.nonsense  # type: ignore[attr-defined]
