@@ -28,10 +28,10 @@ from app.draw.theme import THEMES
 from app.lab import LABORATORY, MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, lesson_of
 from app.state import VALENCES, Edits, Options, Prediction, Spot, State, settle
 from app.strict import Entry, KeepingError, parsed
-from app.turn import FARTHEST, NEAREST, Turn
 from lessons import all_lessons
 from lessons.questions import Where
 from lessons.script import Lesson
+from lessons.turn import FARTHEST, NEAREST, Turn
 from subdivision import Boundary, Mesh, Polyline, Topology, TopologyError, shapes
 from subdivision.catalogue import FAMILIES, Parameter, Value, scheme
 from subdivision.files import FileError

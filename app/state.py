@@ -14,9 +14,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from app.lab import LABORATORY, Lab
-from app.turn import REST, Turn
 from lessons import all_lessons
 from lessons.script import Beat, Lesson, View
+from lessons.turn import REST, Turn
 from subdivision import Topology, Trace
 from subdivision.catalogue import Vectors
 

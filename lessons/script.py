@@ -15,6 +15,7 @@ from typing import Any, TypeAlias, TypedDict, Unpack
 import numpy as np
 
 from lessons.questions import Question, Which, checked
+from lessons.turn import Turn
 from subdivision import Boundary, Mesh, Role, Stage, Stencil, Trace
 from subdivision.words import phrase
 
@@ -38,6 +39,8 @@ class Look:
     elevation: float = 25.0
     zoom: float = 1.0
     parallel: bool = False
+    turned: tuple[Turn, ...] = ()
+    """How a hand has turned it from there, once or again and again."""
 
 
 FLAT = Look(azimuth=-90.0, elevation=90.0, parallel=True)
@@ -67,6 +70,8 @@ class View:
         Laid over this one in dashes: its net only.
     reading : Mesh -> str, or (Mesh, Mesh) -> str with a view laid over
         A measurement of what the pane shows, live, written below it.
+    framed : Trace or None
+        Whose control object the camera sees; None: its own.  A dragged one may so be seen as if it stood as before.
     isophotes : bool
         Draw no net but the lines along which the surface leans equally far from the light.
     veiled : bool
@@ -85,6 +90,7 @@ class View:
     over: "View | None" = None
     reading: Reading | None = None
     isophotes: bool = False
+    framed: Trace | None = None
     veiled: bool = False
 
     def at(self, progress: float) -> float:
@@ -272,6 +278,7 @@ class Said(TypedDict, total=False):
     marks: tuple[tuple[int, str], ...]
     over: View | None
     reading: Reading | None
+    framed: Trace | None
 
 
 def show(trace: Trace, after: Stage | None, text: str, **said: Unpack[Said]) -> Beat:
@@ -373,4 +380,4 @@ def _split(said: Said) -> tuple[dict[str, Any], dict[str, Any]]:
     return {name: value for name, value in said.items() if name not in OF_VIEW}, of_view
 
 
-OF_VIEW = ("title", "stencil", "span", "marks", "over", "reading")
+OF_VIEW = ("title", "stencil", "span", "marks", "over", "reading", "framed")

@@ -27,8 +27,8 @@ from app.export.worker import told
 from app.figures import png
 from app.keeping import write
 from app.state import at_stop, choose, drag, last, start, stops, turn_view
-from app.turn import Turn
 from lessons.script import Lesson, play, show
+from lessons.turn import Turn
 from subdivision import files, shapes, subdivide, trace
 from subdivision.limit import limit_mesh
 from subdivision.schemes import QUAD_CENTROID

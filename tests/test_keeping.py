@@ -19,7 +19,7 @@ from app.lab import Lab, Rule, lab_of
 from app.link import HEAD, followed, is_link, link
 from app.state import Options, Spot
 from app.strict import Entry, KeepingError
-from app.turn import REST
+from lessons.turn import REST
 from subdivision import Boundary, Grid, Mesh, Polyline, Topology, TopologyError, catalogue, shapes
 
 CUBE = st.start(lessons.find("14"))

@@ -6,7 +6,7 @@ import lessons
 from app import state as st
 from app.lab import lab_of, lesson_of
 from app.state import Stop
-from app.turn import REST
+from lessons.turn import REST
 from subdivision import shapes
 
 CUBE = lessons.find("14")

@@ -6,6 +6,7 @@ Nothing is painted: the result is a display list, so that a test can read "four 
 
 from contextlib import suppress
 from dataclasses import replace
+from functools import reduce
 from itertools import accumulate, pairwise
 
 from app import asking
@@ -18,6 +19,7 @@ from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
 from app.draw.selected import is_pickable, selected
 from app.draw.spoken import translated
 from app.draw.theme import NAMES, Theme, theme_of
+from app.draw.turned import turned
 from app.state import Spot, State, level_of
 from app.words import speaking, tr
 from lessons.questions import Which
@@ -198,7 +200,7 @@ def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scen
         return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme, words), None
     # of the trace as the lesson has it: dragging a point moves no camera
     what = surface.shown(state, view)
-    is_as_told = what.framed is view.trace
+    is_as_told = what.framed is (view.framed or view.trace)
     seen = camera(what.framed, what.look, _contributors(view) if is_as_told else None)
     over = shown_mesh(state, view.over) if view.over is not None and is_as_told else None
     is_striped = view.isophotes or state.options.surface_shows in surface.STRIPED
@@ -211,6 +213,7 @@ def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scen
     if is_as_told:
         made = asked.asked(made, state, view, theme)
     made = surface.dressed(made, what, frame, state, view, theme)
+    made = replace(made, camera=reduce(turned, (view.look or state.now.look).turned, made.camera))
     return made, surface.values_of(state, view, what, frame)
 
 
@@ -233,7 +236,7 @@ def _rects(beat: Beat) -> tuple[tuple[float, float, float, float], ...]:
     if n <= 3:
         ends = list(accumulate(map(_share, beat.views), initial=0.0))
         return tuple((a / ends[-1], 0.0, (b - a) / ends[-1], 1.0) for a, b in pairwise(ends))
-    aspect = max(camera(view.trace, view.look or beat.look).aspect for view in beat.views)
+    aspect = max(camera(view.framed or view.trace, view.look or beat.look).aspect for view in beat.views)
     columns = max(range(1, n + 1), key=lambda c: min(1 / -(-n // c), WIDE / (c * aspect)))
     rows = -(-n // columns)
     return tuple(((k % columns) / columns, (k // columns) / rows, 1 / columns, 1 / rows) for k in range(n))

@@ -6,7 +6,7 @@ from app.draw.fading import faded
 from app.draw.picture import Picture, Scene
 from app.draw.turned import turned
 from app.state import State
-from app.turn import REST, Turn
+from lessons.turn import REST, Turn
 
 
 def seen(state: State) -> Picture:

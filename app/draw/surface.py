@@ -76,7 +76,7 @@ class Values:
 
 def shown(state: State, view: View) -> Shown:
     """What a view shows, as the options say."""
-    found = Shown(state.trace(view), view.at(state.progress), view.trace, view.look or state.now.look)
+    found = Shown(state.trace(view), view.at(state.progress), view.framed or view.trace, view.look or state.now.look)
     if state.options.basis:
         found = _lifted(state, view, found)
     if state.options.limit and found.trace.stages:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.draw.picture import Camera, unit
-from app.turn import Turn
+from lessons.turn import Turn
 from subdivision.arrays import Floats
 
 STEEPEST = np.radians(89.0)

@@ -31,7 +31,7 @@ from app.gui.pointing import nearest, part
 from app.gui.predicting import predicted
 from app.gui.session import Session
 from app.state import Picked, Spot, State, drag, is_turned_only, look, pick, put_back, turn_view
-from app.turn import REST, Turn
+from lessons.turn import REST, Turn
 
 PANES = 6
 """How many panes the viewport has renderers for."""

@@ -12,7 +12,7 @@ from app.export.making import export
 from app.gui import export as dialogs
 from app.gui.export import ExportDialog
 from app.state import last, open_lesson, turn_view
-from app.turn import Turn
+from lessons.turn import Turn
 
 pytestmark = pytest.mark.window
 

@@ -21,7 +21,7 @@ from app.gui.menus import _list_recent
 from app.keeping import document, kept, read, write
 from app.link import HEAD, followed, link
 from app.state import choose, drag, forward, last, open_lesson, seek, start, turn_view
-from app.turn import REST
+from lessons.turn import REST
 
 pytestmark = pytest.mark.window
 CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
