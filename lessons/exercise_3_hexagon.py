@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from lessons.measured import gap
+from lessons.questions import weight
 from lessons.script import Beat, Kind, Look, View, beside, fragment, lesson, play, show, side_by_side
 from subdivision import Mesh, Step, shapes, trace
 from subdivision.measure import largest_gap
@@ -40,6 +41,7 @@ def exercise_3_hexagon() -> Iterator[Beat]:
                claim=[stage.name for stage in told.stages[2:]] == ["average s", "average t", "average (1,1)"])
     hexagon = show(told, diagonal, "All three at once: two eighths of the point itself, one of each neighbour.",
                    look=LOOK, stencil=row, span=3, poster=True,
+                   predict=weight(row, row.terms[0][0], "All three at once: how much of itself does a point keep?"),
                    formula=r"$\dfrac{1 + x + y + 2xy + x^2y + xy^2 + x^2y^2}{8}$",
                    notes="Multiply the three factors out: eight terms, two of them equal. It is Figure 21.",
                    claim=Counter(str(weight) for _, weight in row.terms) == HEXAGON)

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from lessons.measured import angles_at, without_helpers
+from lessons.questions import where
 from lessons.script import Beat, Look, View, lesson, side_by_side
 from subdivision import Mesh, Scheme, Topology, Trace, shapes, trace
 from subdivision.measure import angle_sum
@@ -36,6 +37,7 @@ def exercise_4_valence_three() -> Iterator[Beat]:
                        claim=round(by_centroids[0], 9) == 180)
     yield side_by_side("One level of each. Left the angles are still 180; right they open.", *both(far, 0, 2),
                        look=LOOK, formula=r"$\beta = \dfrac{1}{8} \qquad \beta = \dfrac{3}{16}$",
+                       predict=where(TIP, "One level of each. Where will the tip on the left go?"),
                        claim=abs(by_centroids[1] - 180) < 1e-9 and by_loop[1] > 300
                        and [str(stencil_by_valence(told.scheme, 3, "vertex").weight("E1")) for told in far]
                        == ["1/8", "3/16"])

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from math import comb
 
+from lessons.questions import where
 from lessons.script import Beat, lesson, play, show, with_diagram
 from subdivision import Stencil, Trace, shapes
 from subdivision.schemes import lane_riesenfeld
@@ -37,6 +38,7 @@ def figure_01_lane_riesenfeld(degree: int = 3) -> Iterator[Beat]:
     if degree > 1:
         yield with_diagram(play(told, more[0], "Average again: corners are cut. This is the quadratic curve.",
                                 formula=AVERAGE, notes="This is Chaikin's corner cutting: 3/4 and 1/4.",
+                                predict=where(4, "Average neighbours again. Where will this point go?"),
                                 claim=sorted(map(float, told.upto(3).stencil(0).weights)) == [1 / 4, 3 / 4]))
     if degree > 2:
         yield with_diagram(play(told, more[1], "And again: the cubic curve. Every average makes the row one shorter.",

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from lessons.script import Beat, Look, before_and_after, lesson, play, show, with_diagram
+from lessons.questions import which
+from lessons.script import Beat, Look, at_rest, before_and_after, lesson, play, show, with_diagram
 from subdivision import shapes, trace
 from subdivision.passes import as_grid
 from subdivision.schemes import lane_riesenfeld, tensor_product
@@ -31,6 +32,8 @@ def figure_02_s_split_and_average() -> Iterator[Beat]:
     yield before_and_after(play(told, average, "Average in s: neighbours along every row. Originals and midpoints.",
                                 look=LOOK, formula=r"$U_{ij} \leftarrow \dfrac{U_{ij} + U_{i+1,j}}{2}$",
                                 notes="Hover a box on the right: its two parents light up on the left.",
+                                predict=which("Average neighbours in every row, once. Which net will it be?",
+                                              *at_rest(told, (len(told.stages), ""), (0, ""), (2, ""))),
                                 claim=wider.shape == (5, 3) and set(average.roles) == {0, 1}),
                            split, "(a) Split in s", "(b) Average in s")
     yield before_and_after(show(told, average, "One box: the midpoint of two neighbours in its row. Its two parents "

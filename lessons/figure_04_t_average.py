@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from lessons.questions import weight
 from lessons.script import Beat, Look, before_and_after, lesson, play, show, with_diagram
 from subdivision import Trace, shapes, trace
 from subdivision.passes import as_grid
@@ -22,6 +23,7 @@ def figure_04_t_average(m: int = 1, n: int = 1) -> Iterator[Beat]:
     split_t, first, last = told.stages[m + 1], told.stages[m + 2], told.stages[-1]
     before, after = as_grid(split_t.topology), as_grid(last.topology)
     middle = told.whole.stencil(int(after.numbers[1, 1]))
+    in_s = told.upto(m + 2).stencil(int(before.numbers[1, 1]))
     name = NAMES.get((m, n), phrase("bidegree ({m},{n})", m=m, n=n))
     panels = "averaged in s, split in t", "averaged in t"
     start = ("The array of Figure 3: split and averaged in s, then split in t." if m == 1 else
@@ -34,6 +36,8 @@ def figure_04_t_average(m: int = 1, n: int = 1) -> Iterator[Beat]:
     yield before_and_after(play(told, first, phrase("Average {times} in the t-direction: now t is done as s was.",
                                                     times=TIMES[n]),
                                 until=last, look=LOOK, formula=r"$U_{ij} \leftarrow \dfrac{U_{ij} + U_{i,j+1}}{2}$",
+                                predict=weight(middle, middle.terms[0][0], "Average in t. How much of its nearest "
+                                               "control point will a box in the middle hold?", in_s.terms[0][1]),
                                 notes="Bilinear: originals, edge midpoints and face centroids; the surface keeps its "
                                 "shape. The lecture's label is: average in the t-direction.",
                                 claim=after.shape == (before.n_s, before.n_t - n)

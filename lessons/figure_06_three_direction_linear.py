@@ -4,10 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from lessons.script import Beat, Look, before_and_after, lesson, play, show, with_diagram
+from lessons.questions import which
+from lessons.script import Beat, Look, at_rest, before_and_after, lesson, play, show, with_diagram
 from subdivision import Mesh, Trace, shapes, trace
 from subdivision.passes import as_grid
-from subdivision.schemes import THREE_DIRECTION_LINEAR, TRIANGLE_CENTROID, box_spline
+from subdivision.schemes import THREE_DIRECTION_LINEAR, TRIANGLE_CENTROID, box_spline, tensor_product
 
 LOOK = Look(azimuth=-78.0, elevation=56.0, zoom=0.88)
 PANELS = "(a) Quadruple", "(b) Average along (1,1)"
@@ -18,6 +19,7 @@ PANELS = "(a) Quadruple", "(b) Average along (1,1)"
 def figure_06_three_direction_linear() -> Iterator[Beat]:
     told = trace(box_spline(THREE_DIRECTION_LINEAR), shapes.net(3, 3, diagonal=True))
     quadruple, along = told.stages
+    bilinear = trace(tensor_product(1, 1), shapes.net(3, 3))
     old, new = as_grid(told.control.topology), as_grid(along.topology)
     on_edge, on_diagonal = (told.whole.stencil(int(new.numbers[at])) for at in ((1, 2), (1, 1)))
 
@@ -33,6 +35,9 @@ def figure_06_three_direction_linear() -> Iterator[Beat]:
                             "do you get?"))
     yield before_and_after(play(told, along, "Average along (1,1), just once: originals and midpoints of all edges.",
                                 look=LOOK, formula=r"$U_{ij} \leftarrow \dfrac{U_{ij} + U_{i+1,j+1}}{2}$",
+                                predict=which("Average along a diagonal, once. Which net will it be?",
+                                              *at_rest(told, (0, ""), (2, "")),
+                                              *at_rest(bilinear, (len(bilinear.stages), ""))),
                                 notes="One pass is enough, where the bilinear surface needs two. Hover a box on the "
                                 "right: its two parents on the left lie on a diagonal.",
                                 claim=new.shape == (5, 5) and set(along.roles) == {0, 1}), quadruple, *PANELS)

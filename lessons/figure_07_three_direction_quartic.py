@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from lessons.questions import weight
 from lessons.script import Beat, Look, lesson, play, show, with_diagram
 from subdivision import Stencil, shapes, trace
 from subdivision.passes import as_grid
@@ -39,6 +40,8 @@ def figure_07_three_direction_quartic() -> Iterator[Beat]:
                             notes="And a row.", claim=as_grid(along_t.topology).shape == (6, 6)))
     yield with_diagram(play(told, diagonally, "Average along (1,1) once more. Four averages in all: the quartic "
                             "surface.", look=LOOK, formula=r"$U_{ij} \leftarrow \dfrac{U_{ij} + U_{i+1,j+1}}{2}$",
+                            predict=weight(vertex, vertex.terms[0][0], "One average is left. How much of itself will a "
+                                           "vertex then have kept?", edge.terms[0][1]),
                             notes="A row and a column at once. As cheap as the biquadratic surface, and smoother: "
                             "Figure 10.",
                             claim=as_grid(diagonally.topology).shape == (5, 5) and len(told.stages) - 1 == 4))

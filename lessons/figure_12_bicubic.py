@@ -4,9 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from lessons.questions import weight, where
 from lessons.script import Beat, Look, at_rest, fragment, lesson, play, show, side_by_side
 from subdivision import Role, shapes, trace
-from subdivision.schemes import QUAD_CENTROID, tensor_product
+from subdivision.schemes import QUAD_CENTROID, lane_riesenfeld, tensor_product
 
 LOOK = Look(azimuth=-65.0, elevation=60.0)
 PANES = Look(azimuth=-65.0, elevation=60.0, zoom=0.88)
@@ -25,7 +26,7 @@ def figure_12_bicubic() -> Iterator[Beat]:
     by_faces = [told.whole.stencil(int(i)).weights.tolist()
                 for i in np.flatnonzero(~told.mesh_at(3).surface.on_boundary)]
     edge_point = topology.topology.origin[1]  # the first face's first edge
-    vertex = 0
+    vertex, curve = 0, trace(lane_riesenfeld(3), shapes.polygon(4)).whole.stencil(1)
 
     yield show(told, None, "(a) Original control points: one face of a larger net.", look=LOOK,
                claim=told.control.topology.n_vertices == 16)
@@ -36,10 +37,13 @@ def figure_12_bicubic() -> Iterator[Beat]:
                look=LOOK, claim=len(centroids.born) == topology.topology.n_faces)
     yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of the centroids around it.",
                look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$",
+               predict=where(2, "Every vertex goes amid the four centroids around it. Where will this one be?"),
                notes="All centroids come from the mesh before it moves, and all vertices move together.",
                claim=geometry.moves and inside == 25)
     yield show(told, geometry, "A vertex reads nine points: 36, 6 and 1 sixty-fourths.", look=LOOK, span=3,
                stencil=told.whole.stencil(vertex), formula=r"$\dfrac{36\,V + 6 \sum E_i + \sum F_i}{64}$",
+               predict=weight(told.whole.stencil(vertex), vertex, "How much of itself does the vertex keep?",
+                              told.whole.stencil(edge_point).terms[0][1], curve.weight(1)),
                claim=sorted(64 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 6, 6, 6, 6, 36])
     yield show(told, geometry, "An edge point reads six: 6 and 1 sixteenths.", look=LOOK, span=3,
                stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{6\,(A+B) + C + D + E + F}{16}$",

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator
 
+from lessons.questions import weight, where
 from lessons.script import Beat, Look, at_rest, fragment, lesson, play, show, side_by_side
 from subdivision import Role, shapes, trace
-from subdivision.schemes import QUAD_CENTROID
+from subdivision.schemes import CATMULL_CLARK, QUAD_CENTROID
 from subdivision.words import phrase
 
 LOOK = Look(azimuth=-70.0, elevation=58.0)
@@ -41,12 +42,15 @@ def figure_13_extraordinary_vertex(valence: int = 6) -> Iterator[Beat]:
     yield play(told, geometry, phrase("(c) New geometry: the middle moves to the centroid of {n} helpers, all others "
                                       "of four.", n=n), look=LOOK,
                formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
+               predict=where(0, "Where will the vertex in the middle go?"),
                notes="The pale helpers show what every vertex is now amid. The lecture does not colour the last "
                "position.",
                claim=geometry.matrix[[0]].nnz == n and all(geometry.matrix[[v]].nnz == 4 for v in topology.born[:n]))
     yield show(told, geometry, "In one formula: the vertex keeps 9/16, its neighbours share 6/16, the corners across "
                "1/16.", look=LOOK, span=3, stencil=row,
                formula=r"$\dfrac{9}{16} V + \dfrac{6}{16n} \sum E_i + \dfrac{1}{16n} \sum F_i$",
+               predict=weight(row, 0, "How much of itself does the vertex in the middle keep?",
+                              trace(CATMULL_CLARK, told.control).whole.stencil(0).weight(0)),
                notes="This is the simple vertex stencil of Figure 20.",
                claim=sorted(16 * n * row.weights) == [1.0] * n + [6.0] * n + [9.0 * n])
     yield side_by_side("One level: the vertex is extraordinary as before, and farther from any other." if n != 4 else

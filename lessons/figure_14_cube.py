@@ -31,10 +31,11 @@ def figure_14_cube() -> Iterator[Beat]:
                claim=len(centroids.born) == 24)
     yield play(told, geometry, "Geometry: every vertex moves to the centroid of the centroids around it.",
                formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves,
-               predict=where(5, "Where will the corner in front go? It has three centroids around it."))
+               predict=where(5, "Three centroids lie around the corner in front. Where will it go?"))
     yield show(told, geometry, "Why is the corner here? It keeps 27/48 of itself, takes 6/48 of each neighbour "
                "and 1/48 across each face.", stencil=row, span=3,
-               predict=weight(row, 5, "How much of itself does the corner keep?", clark.weight(5)),
+               predict=weight(row, 5, "How much of itself does the corner keep?", clark.weight(5),
+                              1 - 3 * row.weight(4)),
                formula=r"$\dfrac{9}{16} V + \dfrac{6}{16n} \sum E_i + \dfrac{1}{16n} \sum F_i$",
                notes="So the corner of a cube from -1 to 1 moves from 1 to 2/3.",
                claim=sorted(48 * row.weights) == [1, 1, 1, 6, 6, 6, 27])

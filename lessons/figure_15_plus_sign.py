@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from lessons.figure_14_cube import is_isolated
 from lessons.measured import without_helpers
+from lessons.questions import where
 from lessons.script import Beat, Look, lesson, levels, play, show, side_by_side
 from subdivision import Trace, shapes, trace
 from subdivision.schemes import QUAD_CENTROID
@@ -36,6 +37,7 @@ def figure_15_plus_sign() -> Iterator[Beat]:
     yield play(told, centroids, "Mark the centroids.", look=LOOK, claim=len(centroids.born) == 120)
     yield play(told, geometry, "Geometry: the tips go in, and the notches happen to stay. One rule for three and "
                "for six.", look=LOOK, marks=marks, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_{k=1}^{n} C_k$",
+               predict=where(notch, "One rule for three and for six. Where will the corner in the notch go?"),
                notes="A notch stays because its neighbours lie evenly about it: three reach out as far as three "
                "reach in.",
                claim=moves(told, tip) and not moves(told, notch))

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
+from lessons.questions import weight
 from lessons.script import Beat, lesson, play, show, with_diagram
 from subdivision import shapes, trace
 from subdivision.schemes import lane_riesenfeld
@@ -34,6 +35,7 @@ def figure_16_cubic_pyramid() -> Iterator[Beat]:
     yield with_diagram(play(told, third, "Third average: only two kinds of boxes, in turn.",
                             formula=r"$\dfrac{4P_i + 4P_{i+1}}{8},\quad \dfrac{P_i + 6P_{i+1} + P_{i+2}}{8}$",
                             claim=rows(4) == {(half, half), (6 * eighth, eighth, eighth)},
+                            predict=weight(vertex, 1, "The last average. How much of itself will a vertex keep?", half),
                             notes="Ask which of the two are the new points on edges, and which the old vertices."))
     yield with_diagram(show(told, third, "An edge point: half of each end.", stencil=edge, span=4,
                             formula=r"$Q_{i+1/2} = \dfrac{P_i + P_{i+1}}{2}$",

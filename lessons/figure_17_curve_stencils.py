@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from lessons.measured import without_helpers
+from lessons.questions import where
 from lessons.script import Beat, beside, lesson, play, side_by_side, stencil_of
 from subdivision import Mesh, Polyline, Stencil, Trace, shapes, trace
 from subdivision.schemes import lane_riesenfeld
@@ -31,6 +32,7 @@ def figure_17_curve_stencils() -> Iterator[Beat]:
                       stencil=topology.stencil(5), claim=not topology.moves), edge)
     yield beside(play(told, geometry, "Vertex points: six eighths of the old place, one eighth of each neighbour.",
                       formula=r"$Q_{i+1} = \dfrac{P_i+6P_{i+1}+P_{i+2}}{8}$", stencil=rows[5], span=2,
+                      predict=where(7, "Six eighths of the old place, one of each neighbour. Where to?"),
                       notes="The two ends have a neighbour on one side only; they are dropped, and the curve is that "
                             "of the inner points.",
                       claim=_weights(rows[5]) == ["3/4", "1/8", "1/8"]), vertex)

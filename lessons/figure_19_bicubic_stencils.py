@@ -5,9 +5,10 @@ from fractions import Fraction
 
 import numpy as np
 
+from lessons.questions import weight
 from lessons.script import Beat, Look, beside, fragment, lesson, play, show, side_by_side, stencil_of
 from subdivision import Stencil, shapes, trace
-from subdivision.schemes import QUAD_CENTROID, tensor_product
+from subdivision.schemes import QUAD_CENTROID, lane_riesenfeld, tensor_product
 from subdivision.words import phrase
 
 LOOK = Look(azimuth=-68.0, elevation=50.0)
@@ -21,6 +22,8 @@ def figure_19_bicubic_stencils() -> Iterator[Beat]:
     points = {"face": 9, "edge": 13 + int(spoke), "vertex": 0}
     face, edge, vertex = (stencil_of(star, p, phrase("({x}) {name} stencil", x=x, name=name))
                           for x, (name, p) in zip("abc", points.items(), strict=True))
+    edge_row, vertex_row = (star.whole.stencil(points[name]) for name in ("edge", "vertex"))
+    curve = trace(lane_riesenfeld(3), shapes.polygon(4)).whole.stencil(1)
     told = trace(QUAD_CENTROID, fragment(shapes.quad_fan(4, rings=2)), "stencils")
     faces, edges, vertices, connect = told.stages
     V, F = told.control.surface.n_vertices, told.control.surface.n_faces
@@ -29,6 +32,8 @@ def figure_19_bicubic_stencils() -> Iterator[Beat]:
 
     yield side_by_side("Bicubic surfaces need three stencils: for face points, edge points and vertex points.",
                        face, edge, vertex, poster=True,
+                       predict=weight(vertex_row, 0, "Face, edge and vertex. How much of itself does a vertex keep?",
+                                      *(row.terms[0][1] for row in (edge_row, curve))),
                        notes="They are the curve's two stencils multiplied: edge by edge, edge by vertex, vertex by "
                              "vertex. Ask for the 6 and the 36.",
                        claim=_weights(face.stencil) == {Fraction(1, 4): 4}

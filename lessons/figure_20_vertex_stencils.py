@@ -6,6 +6,7 @@ from math import log
 
 import numpy as np
 
+from lessons.questions import weight, where
 from lessons.script import Beat, Look, Reading, View, lesson, side_by_side, stencil_of
 from subdivision import Mesh, Stencil, Trace, shapes, subdivide, trace
 from subdivision.limit import to_limit
@@ -34,6 +35,8 @@ def figure_20_vertex_stencils(valence: int = 6) -> Iterator[Beat]:
                               n=n),
                        stencil_of(stars[0], 0, "(a) simple vertex stencil"),
                        stencil_of(stars[1], 0, "(b) Catmull-Clark stencil"), poster=True,
+                       predict=weight(clark, 0, "Catmull-Clark: how much of itself does the vertex in the middle keep?",
+                                      simple.weight(0)),
                        formula=r"$\frac{9}{16},\ \frac{6}{16n},\ \frac{1}{16n}\qquad\quad"
                                r"1-\frac{7}{4n},\ \frac{3}{2n^2},\ \frac{1}{4n^2}$",
                        notes="Four things are asked of such a stencil: its weights sum to 1, like points weigh alike, "
@@ -52,6 +55,7 @@ def figure_20_vertex_stencils(valence: int = 6) -> Iterator[Beat]:
                        and np.allclose(np.linalg.norm(dome.points, axis=1), 1))
     yield side_by_side("Only the vertex in the middle goes to two different places. Then connect.",
                        *_panes(once, 2, 4), look=ABOVE,
+                       predict=where(0, "Where will Catmull-Clark, on the right, take the middle vertex?", pane=1),
                        notes="The simple rule keeps 9/16 of the vertex at every valence. Catmull-Clark keeps more of "
                              "it the larger n is, and less at valence 3. At valence 4 they do not differ.",
                        claim=np.allclose(once[0].points[4][ring], once[1].points[4][ring], atol=1e-14)

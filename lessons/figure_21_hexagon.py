@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.measured import without_helpers
+from lessons.questions import weight
 from lessons.script import FLAT, Beat, Kind, Look, View, beside, fragment, lesson, play, show, side_by_side
 from subdivision import Grid, Mesh, Stencil, Step, shapes, trace
 from subdivision.passes import as_grid
@@ -32,6 +33,7 @@ def figure_21_hexagon() -> Iterator[Beat]:
 
     yield beside(show(star, star.stages[0], "A hexagon on the refined mesh: two eighths of the point, one of each "
                       "neighbour.", formula=r"$\dfrac{2}{8} Q + \dfrac{1}{8} \sum N_i$", title="refined mesh",
+                      predict=weight(star.stages[1].stencil(0), 0, "How much of itself does a point keep?"),
                       look=FLAT, poster=True,
                       notes="The six neighbours in this picture are points of the refined mesh: midpoints, not "
                             "original vertices.",

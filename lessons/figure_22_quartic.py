@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from lessons.questions import weight, where
 from lessons.script import Beat, Look, at_rest, fragment, lesson, play, show, side_by_side
 from subdivision import Role, shapes, trace
 from subdivision.schemes import TRIANGLE_CENTROID
@@ -33,12 +34,15 @@ def figure_22_quartic() -> Iterator[Beat]:
                notes="A weighted centroid belongs to one triangle and one of its corners; no other vertex may use it.",
                claim=len(centroids.born) == 3 * topology.topology.n_faces)
     yield play(told, geometry, "(c) New geometry: every vertex moves to the centroid of its own weighted centroids.",
-               look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves)
+               look=LOOK, formula=r"$Q \rightarrow \dfrac{1}{n} \sum_k C_k$", claim=geometry.moves,
+               predict=where(vertex, "Every vertex moves to the centroid of its own six. Where will this one go?"))
     yield show(told, geometry, "A new edge point takes three eighths of each end, one eighth of each opposite corner.",
                look=LOOK, span=3, stencil=told.whole.stencil(edge_point), formula=r"$\dfrac{3\,(A+B) + C + D}{8}$",
                claim=sorted(8 * told.whole.stencil(edge_point).weights) == [1, 1, 3, 3])
     yield show(told, geometry, "A vertex keeps ten sixteenths and takes one of each neighbour.", look=LOOK, span=3,
                stencil=told.whole.stencil(vertex), formula=r"$\dfrac{10\,V + \sum N_i}{16}$",
+               predict=weight(told.whole.stencil(vertex), vertex, "How much of itself does the vertex keep?",
+                              told.whole.stencil(edge_point).terms[0][1]),
                claim=sorted(16 * told.whole.stencil(vertex).weights) == [1, 1, 1, 1, 1, 1, 10])
     yield side_by_side("Topology keeps the shape, geometry smooths it: together they are one level of the quartic "
                        "surface.", *at_rest(told, (0, "(a) Original control points"), (1, "(b) New topology"),

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.measured import without_helpers
+from lessons.questions import where, which
 from lessons.script import FLAT, Beat, Look, View, lesson, levels, side_by_side
 from subdivision import Mesh, Polyline, shapes, trace
 from subdivision.fractal import SIERPINSKI, separate_triangles
@@ -22,6 +23,7 @@ def motivation() -> Iterator[Beat]:
     fractal = trace(SIERPINSKI, Mesh(separate_triangles(1), CORNERS), levels=LEVELS)
     curve = without_helpers(trace(lane_riesenfeld(3), Mesh(Polyline(3, closed=True), CORNERS),
                                   "topology and geometry", LEVELS))
+    linear, quadratic = (trace(lane_riesenfeld(degree), curve.control, levels=LEVELS) for degree in (1, 2))
     outline = View(curve, 0, 0)
     triangles, corners = ([told.topology_at(2 * k) for k in range(LEVELS + 1)] for told in (fractal, curve))
 
@@ -35,6 +37,7 @@ def motivation() -> Iterator[Beat]:
     yield side_by_side("Left: three copies, each shrunk by half towards its corner. Right: split, then average.",
                        *both(0, 2), look=FLAT,
                        formula=r"$w_i(p) = \dfrac{p + v_i}{2} \qquad Q = \dfrac{P_{i-1} + 6P_i + P_{i+1}}{8}$",
+                       predict=where(3, "Right: an eighth, six eighths, an eighth. Where will this corner go?", pane=1),
                        notes="Both are a matrix times the points; no other rule is needed.",
                        claim=str(fractal.step(0).stencil(1)) == "1/2 v0 + 1/2 v1"
                        and str(curve.step(0).stencil(1)) == "3/4 v1 + 1/8 v0 + 1/8 v2")
@@ -44,6 +47,9 @@ def motivation() -> Iterator[Beat]:
                        look=FLAT, claim=sharpest(curve.mesh_at(6)) < sharpest(curve.mesh_at(4)) / 1.8)
     yield side_by_side("Left a set that is rough at every size, right a curve that is smooth.", *both(6, 10), look=FLAT,
                        poster=True, formula=r"$C_n \rightarrow C_\infty = W(C_\infty) \qquad P_n \rightarrow P_\infty$",
+                       predict=which("Right, from the triangle in dashes: split and average for ever. Where to?",
+                                     *(View(told, len(told.stages), len(told.stages), over=outline)
+                                       for told in (quadratic, curve, linear))),
                        notes="The fractal is the one closed and bounded set, but for the empty one, that its rule "
                        "leaves as it is; see Barnsley, Fractals Everywhere. The curve is a cubic B-spline.",
                        claim=triangles[5].n_faces == 3**5

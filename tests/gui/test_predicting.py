@@ -12,7 +12,8 @@ from app.draw.picture import Diagram
 from app.gui.narration import ANSWER_HINT, WHERE_HINT
 from app.gui.presenter import noted
 from app.link import followed, link
-from app.state import Stop, choose, drag, open_lesson, stops
+from app.state import Stop, choose, drag, open_lesson, stops, turn_view
+from lessons.turn import Turn
 
 pytestmark = pytest.mark.window
 Key = Qt.Key
@@ -55,7 +56,7 @@ def words(window):
 def test_clicks_are_predictions_and_the_truth_comes_beside_them_with_the_distance(qtbot, cube):
     onward(qtbot, cube, 4)
     state = cube.session.state
-    assert state.now.text.startswith("Where will the corner")
+    assert "Where will it go?" in state.now.text
     assert cube.viewport.narration._hint(state) == WHERE_HINT
     assert words(cube) == ["?"]
     truth = asking.place(state, state.now.asks)
@@ -95,11 +96,12 @@ def test_backspace_and_undo_take_predictions_back_and_the_ninth_replaces_the_fir
 
 def test_two_clicks_in_a_row_are_two_predictions_and_leave_the_view(qtbot, cube):
     onward(qtbot, cube, 4)
-    cube.session.do(lambda state: state)
-    turn = cube.session.state.turn
+    cube.session.do(turn_view, Turn(around=0.2))
+    click(cube, 300, 200)
     QTest.mouseDClick(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=QPoint(300, 200))
-    assert len(cube.session.state.predicted) in (1, 2)  # Qt's test sends both presses, or the second alone
-    assert cube.session.state.turn == turn
+    QTest.mouseRelease(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=QPoint(300, 200))
+    assert len(cube.session.state.predicted) == 2
+    assert cube.session.state.turn == Turn(around=0.2)
 
 
 def test_an_answer_is_chosen_by_its_key_or_its_box_and_stays_beside_the_true_one(qtbot, cube):
@@ -147,7 +149,7 @@ def test_a_clicker_alone_goes_through_all_questions_while_presenting(qtbot, cube
         visited.append(Stop(state.beat, state.at))
         press(cube, key)
         qtbot.waitUntil(lambda: not cube.session.state.is_playing, timeout=5000)
-    assert tuple(visited) == stops(visited and lessons.find("14").asking(True))
+    assert tuple(visited) == stops(lessons.find("14").asking(True))
 
 
 def test_the_switch_takes_the_questions_away_and_is_remembered(qtbot, cube):
