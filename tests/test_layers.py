@@ -18,7 +18,6 @@ IMPORTERS = {"__import__", "import_module", "importlib.import_module"}
 LAYERS = {
     "subdivision": ("subdivision",),
     "lessons": ("subdivision", "lessons"),
-    "app.turn": ("app.turn",),
     "app.lab": ("subdivision", "lessons", "app.lab"),
     "app.state": ("subdivision", "lessons", "app.lab", "app.state"),
     "app.draw": ("subdivision", "lessons", "app.state", "app.draw"),

@@ -295,7 +295,7 @@ from app.gui.application import application, first_state
 from app.gui.autosave import Autosave
 from app.gui.session import Session
 from app.state import choose, drag, open_lesson, turn_view
-from app.turn import REST
+from lessons.turn import REST
 import lessons
 app = application()
 session = Session(first_state(None, None, "light", False))
