@@ -9,12 +9,13 @@ from fractions import Fraction
 from itertools import groupby
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 import lessons
 from app.draw.theme import THEMES
 from app.figures import BACKGROUNDS, FORMATS, LEAST, MOST, FigureError
 from app.state import State
-from app.words import tr
+from app.words import LANGUAGES, speak, system_language, tr
 from lessons import own
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, Scheme, TopologyError, files, subdivide
@@ -38,6 +39,7 @@ MOST_FACES = 20_000_000
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; 0 if all went well, 1 after a fault told in a sentence, 2 after a misuse."""
     arguments = list(sys.argv[1:] if argv is None else argv)
+    speak(_wished(arguments) or system_language())
     parser, commands = _parsers()
     chosen = commands[arguments.pop(0)] if arguments and arguments[0] in commands else parser
     options = chosen.parse_args(arguments)
@@ -48,7 +50,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"subdivision-studio: {tr(str(fault))}", file=sys.stderr)
         return 1
     except MemoryError:
-        print("subdivision-studio: there is not enough memory for this; choose fewer levels", file=sys.stderr)
+        sentence = tr("there is not enough memory for this; choose fewer levels")
+        print(f"subdivision-studio: {sentence}", file=sys.stderr)
         return 1
     except BrokenPipeError:  # the reader of our output, such as head, has had enough
         sys.stderr.close()
@@ -63,8 +66,16 @@ def _bug() -> int:
 
     log = keep_log()
     LOG.critical("uncaught", exc_info=True)
-    print(f"subdivision-studio: something went wrong inside the program; the details are in {log}", file=sys.stderr)
+    sentence = tr(phrase("something went wrong inside the program; the details are in {log}", log=log))
+    print(f"subdivision-studio: {sentence}", file=sys.stderr)
     return 1
+
+
+def _wished(arguments: Sequence[str]) -> str:
+    """The language that is asked for, known before anything is said; "": none."""
+    _, _, asked = " ".join(arguments).replace("=", " ").partition("--language ")
+    code = asked.split(" ")[0]
+    return code if code in LANGUAGES else ""
 
 
 class Fault(Exception):
@@ -122,7 +133,15 @@ def open_window(options: argparse.Namespace) -> int:
     (chosen,) = _turned([_lesson(options.lesson)], dict(options.set)) if options.lesson else (None,)
     from app.gui.application import run
 
-    return run(chosen, options.step, options.theme, options.as_caption, own=options.own, is_trusted=options.trust)
+    return run(
+        chosen,
+        options.step,
+        options.theme,
+        options.as_caption,
+        own=options.own,
+        is_trusted=options.trust,
+        language=options.language or "",
+    )
 
 
 def _open(opening: Callable[[State], State], path: Path | None, options: argparse.Namespace) -> int:
@@ -135,7 +154,7 @@ def _open(opening: Callable[[State], State], path: Path | None, options: argpars
     wished = {"theme": options.theme, "as_caption": options.as_caption}
     looks = {name: value for name, value in wished.items() if value}
     return run(theme=options.theme, opening=lambda state: choose(opening(state), **looks), path=path,
-               own=options.own, is_trusted=options.trust)  # fmt: skip
+               own=options.own, is_trusted=options.trust, language=options.language or "")  # fmt: skip
 
 
 def list_lessons(options: argparse.Namespace) -> None:
@@ -152,9 +171,10 @@ def list_lessons(options: argparse.Namespace) -> None:
         return
     width = max(len(each.id) for each in listed)
     for section, those in groupby(listed, key=lambda each: each.section):
-        print(section)
+        print(tr(section))
         for each in those:
-            print(f"  {each.id:<{width}}  {len(stops(each)):>3} steps  {each.title}")
+            steps = tr(phrase("{n:>3} steps", n=len(stops(each))))
+            print(f"  {each.id:<{width}}  {steps}  {tr(each.title)}")
 
 
 def draw_figures(options: argparse.Namespace) -> None:
@@ -164,8 +184,9 @@ def draw_figures(options: argparse.Namespace) -> None:
     named = {_lesson(name) for name in options.lessons}
     chosen = _turned([each for each in lessons.all_lessons() if each in named or not named], dict(options.set))
     drawn = gallery.Drawn(
-        options.format, options.size, options.background, options.theme, options.steps, options.as_caption
-    )
+        options.format, options.size, options.background, options.theme, options.steps, options.as_caption,
+        options.scale,
+    )  # fmt: skip
     begin = perf_counter()
     written = 0
     try:
@@ -177,9 +198,8 @@ def draw_figures(options: argparse.Namespace) -> None:
             written += 1
     except FigureError as fault:
         raise Fault(str(fault)) from fault
-    print(
-        phrase("{written} files in {seconds:.1f} s", written=written, seconds=perf_counter() - begin), file=sys.stderr
-    )
+    took = phrase("{written} files in {seconds:.1f} s", written=written, seconds=perf_counter() - begin)
+    print(tr(took), file=sys.stderr)
 
 
 def export_files(options: argparse.Namespace) -> None:
@@ -219,7 +239,7 @@ def _to_export(options: argparse.Namespace) -> State:
     from app.state import Options, choose, last, open_lesson, start
     from app.strict import KeepingError
 
-    looks = Options(theme=options.theme or "light", as_caption=options.as_caption)
+    looks = Options(theme=options.theme or "light", as_caption=options.as_caption, scale=options.scale)
     try:
         found = meant(options.what or "")
     except KeepingError as fault:
@@ -245,7 +265,7 @@ def write_page(options: argparse.Namespace) -> None:
         size = write_page_of(start(chosen, Options(as_caption=options.as_caption)), path)
     except FigureError as fault:
         raise Fault(str(fault)) from fault
-    print(phrase("{path}: {size:.0f} kB, opens in any browser", path=path, size=size / 1000))
+    print(tr(phrase("{path}: {size:.0f} kB, opens in any browser", path=path, size=size / 1000)))
 
 
 def subdivide_file(options: argparse.Namespace) -> None:
@@ -261,9 +281,8 @@ def subdivide_file(options: argparse.Namespace) -> None:
         fine = Mesh(fine.topology, limit_points(fine, scheme)[: fine.topology.n_vertices])
     files.write(options.output, fine)
     t = fine.topology
-    print(
-        phrase("{path}: {n} vertices, {faces} faces", path=options.output, n=t.n_vertices, faces=int((~t.hidden).sum()))
-    )
+    faces = int((~t.hidden).sum())
+    print(tr(phrase("{path}: {n} vertices, {faces} faces", path=options.output, n=t.n_vertices, faces=faces)))
 
 
 def print_stencil(options: argparse.Namespace) -> None:
@@ -277,20 +296,21 @@ def print_stencil(options: argparse.Namespace) -> None:
         head = {"scheme": scheme.name, "valence": options.valence, "point": options.point}
         print(json.dumps({**head, "weights": exact}, indent=2, ensure_ascii=False))
         return
-    print(
-        phrase(
-            "{scheme}: {point} point at valence {valence}",
-            scheme=scheme.title,
-            point=options.point,
-            valence=options.valence,
-        )
-    )
+    heading = phrase(HEADINGS[options.point], scheme=scheme.title, valence=options.valence)
+    print(tr(heading))
     grouped = groupby(terms, key=lambda term: term[1])
     rows = [(_listed([name for name, _ in alike]), _written(w)) for w, alike in grouped]
-    rows.append(("sum", spelled(sum((w for _, w in terms), Fraction(0)))))
+    rows.append((tr(phrase("sum")), spelled(sum((w for _, w in terms), Fraction(0)))))
     width = max(len(names) for names, _ in rows)
     for names, w in rows:
-        print(f"  {names:<{width}}  {w}" + (" each" if " " in names else ""))
+        print(f"  {names:<{width}}  {w}" + (tr(phrase(" each")) if " " in names else ""))
+
+
+HEADINGS = {
+    "vertex": "{scheme}: vertex point at valence {valence}",
+    "edge": "{scheme}: edge point at valence {valence}",
+    "face": "{scheme}: face point at valence {valence}",
+}
 
 
 def print_mask(options: argparse.Namespace) -> None:
@@ -305,28 +325,42 @@ def print_mask(options: argparse.Namespace) -> None:
         return
     below = max(c.denominator for row in table.rows for c in row)
     width = max(len(str(int(c * below))) for row in table.rows for c in row)
-    print(phrase("1/{below} times", below=below))
+    print(tr(phrase("1/{below} times", below=below)))
     for row in table.rows:
         print("  " + " ".join(f"{int(c * below):>{width}}" for c in row))
-    print("rows: powers of x from", table.origin[0], "  columns: powers of y from", table.origin[1])
-    print(
-        phrase(
-            "degree {degree}, alpha {alpha}, continuity C^{k}",
-            degree=degree(vectors),
-            alpha=alpha(vectors),
-            k=smoothness(vectors),
-        )
-    )
-    print(promise(vectors))
+    x, y = table.origin
+    print(tr(phrase("rows: powers of x from {x}   columns: powers of y from {y}", x=x, y=y)))
+    numbers = {"degree": degree(vectors), "alpha": alpha(vectors), "k": smoothness(vectors)}
+    print(tr(phrase("degree {degree}, alpha {alpha}, continuity C^{k}", **numbers)))
+    print(tr(promise(vectors)))
+
+
+class _Parser(argparse.ArgumentParser):
+    """Helps in the reader's language."""
+
+    def __init__(self, prog: str, description: str, **how: Any) -> None:
+        super().__init__(prog=prog, description=tr(description), add_help=False, **how)
+        self.add_argument("-h", "--help", action="help", help="show this help and end")
+        self.add_argument("--language", choices=LANGUAGES, help="of all words; else the system's")
+
+    def add_argument(self, *names: Any, **how: Any) -> argparse.Action:
+        told = {"help": tr(how["help"])} if "help" in how else {}
+        return super().add_argument(*names, **{**how, **told})
+
+    def format_help(self) -> str:
+        found = super().format_help()
+        for words in ("usage:", "positional arguments:", "options:"):
+            found = found.replace(words, tr(phrase(words)), 1)
+        return found
 
 
 def _parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentParser]]:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="subdivision-studio",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Watch subdivision curves and surfaces happen, one stage at a time.",
-        epilog="commands (each has --help):\n"
-        + "\n".join(f"  {name:<10} {text}" for name, (_, text) in COMMANDS.items()),
+        epilog=tr("commands (each has --help):")
+        + "".join(f"\n  {name:<10} {tr(text)}" for name, (_, text) in COMMANDS.items()),
     )
     parser.add_argument(
         "lesson", nargs="?", metavar="LESSON",
@@ -340,7 +374,7 @@ def _parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentPars
 
 
 def _command(name: str, text: str, build: Callable[[argparse.ArgumentParser], None]) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog=f"subdivision-studio {name}", description=text)
+    parser = _Parser(prog=f"subdivision-studio {name}", description=text)
     build(parser)
     return parser
 
@@ -356,11 +390,12 @@ def _for_figures(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where to; made if it is not there")
     parser.add_argument(
         "--format", type=_formats, default=("png", "svg"), metavar="F,F",
-        help=f"some of {','.join(FORMATS)} (png,svg)",
+        help=phrase("some of {names} (png,svg)", names=",".join(FORMATS)),
     )  # fmt: skip
     parser.add_argument("--size", type=_size, default=(1920, 1080), metavar="WxH", help="in pixels (1920x1080)")
     parser.add_argument("--background", choices=BACKGROUNDS, default="", help="white, or that of the theme named")
     parser.add_argument("--steps", action="store_true", help="one image for each step")
+    _scale(parser)
     parser.add_argument("--sheet", type=Path, metavar="PNG", help="also one picture of them all, small, in this file")
     _looks(parser)
     parser.set_defaults(run=draw_figures)
@@ -381,6 +416,7 @@ def _for_export(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--of", choices=SCOPES, default="", help="view: only what is shown; lesson; everything")
     parser.add_argument("--step", type=_counting, metavar="N", help="only the lesson's N-th step, from 1")
     parser.add_argument("--size", type=_size, default=(1920, 1080), metavar="WxH", help="in pixels (1920x1080)")
+    _scale(parser)
     parser.add_argument("--background", choices=BACKGROUNDS, default="theme", help="the theme's own, if not named")
     parser.add_argument(
         "--pace", type=float, default=1.0, metavar="X",
@@ -405,6 +441,13 @@ def _from_elsewhere(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--trust", action="store_true", help="... which are programs: run them without having agreed in the window"
     )
+
+
+def _scale(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--scale", type=_percent, default=1.0, metavar="PERCENT",
+        help="how large type, strokes and points are, up to 250 and as far as there is room (100)",
+    )  # fmt: skip
 
 
 def _looks(parser: argparse.ArgumentParser) -> None:
@@ -530,35 +573,44 @@ def _written(weight: Exact) -> str:
     return str(weight) if isinstance(weight, Fraction) else f"{weight} = {float(weight):.12g}"
 
 
+def _refused(sentence: str) -> argparse.ArgumentTypeError:
+    return argparse.ArgumentTypeError(tr(sentence))
+
+
 def _whole(text: str) -> int:
     number = int(text)
     if number < 0:
-        raise argparse.ArgumentTypeError(phrase("{text} is negative", text=text))
+        raise _refused(phrase("{text} is negative", text=text))
     return number
 
 
 def _counting(text: str) -> int:
     if _whole(text) == 0:
-        raise argparse.ArgumentTypeError("counting starts at 1")
+        raise _refused("counting starts at 1")
     return int(text)
+
+
+def _percent(text: str) -> float:
+    number = text.removesuffix("%")
+    if not (number.isdecimal() and 75 <= int(number) <= 250):
+        raise _refused(phrase("'{text}' is not a size in per cent, from 75 to 250", text=text))
+    return int(number) / 100
 
 
 def _formats(text: str) -> tuple[str, ...]:
     chosen = tuple(part.strip().lower() for part in text.split(",") if part.strip())
     for each in chosen:
         if each not in FORMATS:
-            raise argparse.ArgumentTypeError(
-                phrase("'{each}' is not one of {names}", each=each, names=", ".join(FORMATS))
-            )
+            raise _refused(phrase("'{each}' is not one of {names}", each=each, names=", ".join(FORMATS)))
     if not chosen:
-        raise argparse.ArgumentTypeError("name at least one format")
+        raise _refused("name at least one format")
     return chosen
 
 
 def _size(text: str) -> tuple[int, int]:
     width, _, height = text.lower().partition("x")
     if not (width.isdecimal() and height.isdecimal() and all(LEAST <= int(n) <= MOST for n in (width, height))):
-        raise argparse.ArgumentTypeError(
+        raise _refused(
             phrase(
                 "'{text}' is not a size such as 1920x1080 ({least} to {most} each way)",
                 text=text,
@@ -574,15 +626,13 @@ def _setting(text: str) -> tuple[str, int]:
     try:
         return name.strip(), int(value)
     except ValueError as wrong:
-        raise argparse.ArgumentTypeError(
-            phrase("'{text}' is not a name and a whole number such as degree=5", text=text)
-        ) from wrong
+        raise _refused(phrase("'{text}' is not a name and a whole number such as degree=5", text=text)) from wrong
 
 
 def _vectors(text: str) -> list[tuple[int, ...]]:
     try:
         return [tuple(int(x) for x in pair.split(",")) for pair in text.split()]
     except ValueError as wrong:
-        raise argparse.ArgumentTypeError(
+        raise _refused(
             phrase('{text} is not a list of integer pairs such as "1,0 0,1 1,1"', text=repr(text))
         ) from wrong

@@ -39,6 +39,7 @@ def render(
     *,
     theme: str = "",
     as_caption: bool = False,
+    scale: float = 1.0,
     progress: Callable[[float, str], None] = lambda done, name: None,
 ) -> list[Path]:
     """Write the picture that stands for a lesson, or with ``steps`` each of its stops, in each of the formats.
@@ -53,6 +54,8 @@ def render(
         light, dark or projector; if not named, the one that suits the background.
     as_caption : bool
         Colours as in the lecture's own caption.
+    scale : float
+        From 1 on: how much larger type, strokes and points are than usual, as far as there is room.
     progress : callable
         Called with the part done (0..1) and the name of the file just written.
 
@@ -63,7 +66,7 @@ def render(
     """
     formats = _checked(formats, size, background, theme)
     theme, background = looks(theme, background)
-    state = start(lesson, Options(theme=theme, as_caption=as_caption))
+    state = start(lesson, Options(theme=theme, as_caption=as_caption, scale=scale))
     jobs = list(_jobs(state, formats, steps))
     folder = _folder(Path(out_dir))
     written: list[Path] = []

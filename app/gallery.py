@@ -13,9 +13,12 @@ from app.draw.markup import code, number
 from app.draw.theme import THEMES, Theme
 from app.figures import file_name, looks, poster, render, write
 from app.state import Options, State, Stop, at_stop, start, stops
+from app.words import language, tr
 from lessons.script import Lesson
+from subdivision.words import phrase, plural
 
 TITLE = "Subdivision Curves and Surfaces"
+NOTES = phrase("Notes")
 
 EM = 100.0
 """Outlines on the page are written in hundredths of the type's size."""
@@ -31,6 +34,7 @@ class Drawn:
     theme: str = ""
     steps: bool = False
     as_caption: bool = False
+    scale: float = 1.0
 
     @property
     def seen(self) -> tuple[str, str]:
@@ -44,7 +48,7 @@ class Drawn:
 
     @property
     def options(self) -> Options:
-        return Options(theme=looks(self.theme, self.background)[0], as_caption=self.as_caption)
+        return Options(theme=looks(self.theme, self.background)[0], as_caption=self.as_caption, scale=self.scale)
 
 
 def draw(lessons: Sequence[Lesson], folder: Path, drawn: Drawn) -> Iterator[Path]:
@@ -52,7 +56,7 @@ def draw(lessons: Sequence[Lesson], folder: Path, drawn: Drawn) -> Iterator[Path
     for each in lessons:
         yield from render(
             each, folder, drawn.formats, drawn.size, drawn.background, drawn.steps,
-            theme=drawn.theme, as_caption=drawn.as_caption,
+            theme=drawn.theme, as_caption=drawn.as_caption, scale=drawn.scale,
         )  # fmt: skip
     yield write(folder / "index.html", page(lessons, drawn).encode())
 
@@ -68,21 +72,26 @@ def draw_sheet(lessons: Sequence[Lesson], path: Path, drawn: Drawn) -> Path:
 def page(lessons: Sequence[Lesson], drawn: Drawn) -> str:
     """``index.html`` for the folder with the figures of some lessons: valid by itself, without a script."""
     sections = [(name, list(those)) for name, those in groupby(lessons, key=lambda each: each.section)]
-    counted = f"{len(lessons)} {'lesson' if len(lessons) == 1 else 'lessons'}"
-    links = "".join(f'<li><a href="#{_anchor(name)}">{escape(name)}</a></li>' for name, _ in sections)
+    n = len(lessons)
+    made = plural(
+        "{n} lesson, drawn by Subdivision Studio. A picture leads to its full size.",
+        "{n} lessons, drawn by Subdivision Studio. A picture leads to its full size.",
+        n, n=n,
+    )  # fmt: skip
+    links = "".join(f'<li><a href="#{_anchor(name)}">{escape(tr(name))}</a></li>' for name, _ in sections)
     parts = [
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">',
+        f'<!DOCTYPE html>\n<html lang="{language()}">\n<head>\n<meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<meta name="color-scheme" content="light dark">',
-        f"<title>{TITLE}</title>",
+        f"<title>{escape(tr(TITLE))}</title>",
         f"<style>{_style(drawn)}</style>\n</head>",
         f"<body{' class=steps' if drawn.has_steps else ''}>",
-        f"<header>\n<h1>{TITLE}</h1>",
-        f"<p>{counted}, drawn by Subdivision Studio. A picture leads to its full size.</p>",
-        f'<nav aria-label="Sections"><ul>{links}</ul></nav>\n</header>\n<main>',
+        f"<header>\n<h1>{escape(tr(TITLE))}</h1>",
+        f"<p>{escape(tr(made))}</p>",
+        f'<nav aria-label="{escape(tr(phrase("Sections")))}"><ul>{links}</ul></nav>\n</header>\n<main>',
     ]
     for name, those in sections:
-        parts.append(f'<section id="{_anchor(name)}">\n<h2>{escape(name)}</h2>\n<div class="sheet">')
+        parts.append(f'<section id="{_anchor(name)}">\n<h2>{escape(tr(name))}</h2>\n<div class="sheet">')
         parts.extend(_card(each, drawn) for each in those)
         parts.append("</div>\n</section>")
     return "\n".join([*parts, "</main>\n</body>\n</html>\n"])
@@ -92,9 +101,9 @@ def _card(lesson: Lesson, drawn: Drawn) -> str:
     """A lesson: its picture, its title, what is said; with steps all of them."""
     places, chosen = stops(lesson), poster(lesson)
     state = at_stop(start(lesson, drawn.options), chosen)
-    figure, _, title = lesson.title.partition("  ")
+    figure, _, title = tr(lesson.title).partition("  ")
     heading = f"<span>{escape(figure)}</span> {escape(title)}" if title else escape(figure)
-    turned = ", ".join(f"{knob.label} {value}" for knob, value in zip(lesson.knobs, lesson.values, strict=True))
+    turned = ", ".join(f"{tr(knob.label)} {value}" for knob, value in zip(lesson.knobs, lesson.values, strict=True))
     parts = [
         f'<article id="{lesson.id}">',
         _picture(state, drawn, places.index(chosen) + 1 if drawn.has_steps else 0),
@@ -118,7 +127,7 @@ def _steps(state: State, places: Sequence[Stop], drawn: Drawn) -> Iterator[str]:
         here = at_stop(state, stop)
         ends = k == len(places) or places[k].beat != stop.beat
         yield f"<li>\n{_picture(here, drawn, k)}\n<p>{_numbered(k, said(here, here.now))}</p>\n"
-        yield f"{_formula(here.now.formula)}{_aside('Notes', here.now.notes if ends else '')}</li>\n"
+        yield f"{_formula(here.now.formula)}{_aside(NOTES, here.now.notes if ends else '')}</li>\n"
     yield "</ol>"
 
 
@@ -136,8 +145,8 @@ def _picture(state: State, drawn: Drawn, step: int) -> str:
 def _notes(lesson: Lesson, places: Sequence[Stop]) -> str:
     """The lecturer's notes, to be unfolded, each with the number of its step."""
     last = {stop.beat: k for k, stop in enumerate(places, 1)}
-    told = [f"<p>{_numbered(last[b], beat.notes)}</p>" for b, beat in enumerate(lesson.beats) if beat.notes]
-    return f"<details>\n<summary>Notes</summary>\n{''.join(told)}\n</details>" if told else ""
+    told = [f"<p>{_numbered(last[b], tr(beat.notes))}</p>" for b, beat in enumerate(lesson.beats) if beat.notes]
+    return f"<details>\n<summary>{escape(tr(NOTES))}</summary>\n{''.join(told)}\n</details>" if told else ""
 
 
 def _numbered(step: int, text: str) -> str:
@@ -145,7 +154,7 @@ def _numbered(step: int, text: str) -> str:
 
 
 def _aside(name: str, text: str) -> str:
-    return f'<p class="aside"><b>{name}</b> {_words(text)}</p>' if text else ""
+    return f'<p class="aside"><b>{escape(tr(name))}</b> {_words(tr(text))}</p>' if text else ""
 
 
 def _formula(text: str) -> str:
@@ -213,7 +222,7 @@ def sheet(lessons: Sequence[Lesson], options: Options) -> bytes:
     for k, each in enumerate(lessons):
         x, y = GAP + k % columns * across, GAP + k // columns * down
         whole.paste(_tile(at_stop(start(each, options), poster(each))), (x, y))
-        _label(pen, each.title, (x, y + TILE[1] + LINE // 2), theme)
+        _label(pen, tr(each.title), (x, y + TILE[1] + LINE // 2), theme)
     out = BytesIO()
     few = whole.quantize(COLOURS, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)  # rare colours stay
     few.save(out, "PNG", optimize=True)
@@ -246,7 +255,7 @@ def _label(pen: Any, title: str, at: tuple[int, int], theme: Theme) -> None:
 
     from app.draw.type import BOLD, REGULAR
 
-    first, _, rest = title.removeprefix("Figure ").rpartition("  ")
+    first, _, rest = title.removeprefix(tr("Figure ")).rpartition("  ")
     bold, plain = (ImageFont.truetype(str(file), TYPE) for file in (BOLD, REGULAR))
     x = at[0]
     if first:

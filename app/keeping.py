@@ -45,7 +45,7 @@ FORMAT = "subdivision-studio session"
 VERSION = 1
 SUFFIX = ".subdivision"
 
-OF_THE_ROOM = ("presenting", "blank", "reduced_motion", "language")
+OF_THE_ROOM = ("presenting", "blank", "reduced_motion", "language", "scale")
 """Options that belong to where and who one is, not to the picture: they stay as they are."""
 
 CHOICES: Mapping[str, Mapping[str, Any]] = {"theme": THEMES, "across": ACROSS, "surface_shows": SHOWS}

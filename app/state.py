@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from app.lab import LABORATORY, Lab
+from app.words import language
 from lessons import all_lessons
 from lessons.script import Beat, Lesson, View
 from lessons.turn import REST, Turn
@@ -83,10 +84,10 @@ class Options:
     as_caption: bool = False
     across: str = "step"
     theme: str = "light"
-    language: str = "en"
-    """That of the words on the picture and round it."""
-    language: str = "en"
-    """That of the words on the picture and round it."""
+    language: str = field(default_factory=language)
+    """That of the words on the picture and round it: at first the one that is spoken."""
+    scale: float = 1.0
+    """How large the window is, and from 1 on also the type, the strokes and the points of the picture."""
     speed: float = 1.0
     through: bool = False
     asking: bool = False

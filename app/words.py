@@ -24,6 +24,9 @@ LANGUAGES: Mapping[str, str] = {"en": "English", "de": "Deutsch"}
 
 ENGLISH = "en"
 
+SYSTEM = "system"
+"""Chosen instead of a language: that of the system, whichever it is."""
+
 _spoken: str = ENGLISH
 _here: ContextVar[str | None] = ContextVar("language", default=None)
 
@@ -90,3 +93,8 @@ def system_language() -> str:
     wished = next((each for each in wishes if each), locale.getlocale()[0] or "")
     code = wished.split("_")[0].split(".")[0].lower()
     return code if code in LANGUAGES else ENGLISH
+
+
+def headed(text: str) -> str:
+    """The text with a capital, as it begins a line."""
+    return f"{text[:1].upper()}{text[1:]}"

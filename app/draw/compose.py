@@ -18,7 +18,7 @@ from app.draw.pointed import Pointed, row_of
 from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
 from app.draw.selected import is_pickable, selected
 from app.draw.spoken import translated
-from app.draw.theme import NAMES, Theme, theme_of
+from app.draw.theme import NAMES, Theme, enlarged, theme_of
 from app.draw.turned import turned
 from app.state import Spot, State, level_of
 from app.words import speaking, tr
@@ -77,6 +77,7 @@ def _composed(state: State) -> Picture:
         corner=_corner(state),
         stroke=theme.stroke,
         scale=theme.type,
+        growth=theme.growth,
     )
 
 
@@ -130,12 +131,14 @@ def _matrix(state: State, view: View, theme: Theme) -> Diagram:
 
 def dressed(state: State) -> Theme:
     """The theme the picture wears."""
-    return theme_of(state.lesson, state.options.theme, state.options.as_caption)
+    o = state.options
+    return enlarged(theme_of(state.lesson, o.theme, o.as_caption), o.scale)
 
 
 def said(state: State, beat: Beat) -> str:
-    """The caption of a beat of the lesson, in which colours are called what they are."""
-    return tr(beat.text).format_map({role: tr(colour) for role, colour in dressed(state).words.items()})
+    """The caption of a beat of the lesson, in the state's language; colours are called what they are."""
+    with speaking(state.options.language):
+        return tr(beat.text).format_map({role: tr(colour) for role, colour in dressed(state).words.items()})
 
 
 def legend(panes: tuple[Pane, ...], theme: Theme) -> tuple[Entry, ...]:

@@ -4,15 +4,17 @@ One layout serves all painters: the window's overlay, PNG and SVG.
 Coordinates are pixels from the upper left, y downwards.
 """
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import hypot
 
 import numpy as np
 
 from app.draw import bars, dotted
 from app.draw.labels import placed
-from app.draw.picture import Box, Camera, Diagram, Dot, Link, Note, Pane, Picture, Scene, Shape
+from app.draw.picture import Box, Camera, Diagram, Dot, Entry, Link, Note, Pane, Picture, Scene, Shape
 from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, wrapped
 
@@ -53,6 +55,9 @@ FRAME, ROUND = 7.0, 12.0
 APART = 1.4
 """Between the caption and the formula beside it, relative to the caption's size."""
 
+ROOM, STEPS = 0.5, 32
+"""Enlarged type leaves this part of the picture's height to the panes; it is fitted in so many steps."""
+
 LINE = 1.3
 """From one baseline to the next, relative to the size of the type."""
 
@@ -78,6 +83,7 @@ def overlay(
     ``cameras``, one for each pane, are those the user has turned; None: as the picture says.
     ``words`` includes the caption and its formula.
     """
+    picture = _readable(picture, width, height, words)
     found: list[Primitive] = []
     areas = pane_areas(picture, width, height, words)
     spreads = _spreads(picture, areas, height / 1000)
@@ -100,6 +106,7 @@ def overlay(
 
 def pane_areas(picture: Picture, width: float, height: float, words: bool = True) -> list[Area]:
     """Where the panes are, in whole pixels: what title, legend and caption leave free."""
+    picture = _readable(picture, width, height, words)
     around = _words(picture, width, height, words)
     above, below = _title_room(picture, height), _reading_room(picture, height)
     tall = around.bottom - around.top
@@ -143,9 +150,46 @@ def _words(picture: Picture, width: float, height: float, words: bool) -> _Words
 
 def spoken(picture: Picture, width: float, height: float) -> tuple[tuple[Primitive, ...], float, float]:
     """Title, counts, caption and formula alone, and from where to where the rest of the picture reaches down."""
+    picture = _readable(picture, width, height, words=True)
     head, top = _head(picture, width, height / 1000)
     foot, bottom = _caption(picture, width, height)
     return (*head, *foot), top, bottom
+
+
+def _readable(picture: Picture, width: float, height: float, words: bool) -> Picture:
+    """The picture with enlarged type as large as it leaves room for the panes."""
+    if picture.growth == 1.0:
+        return picture
+    named = tuple((bool(pane.title), bool(pane.reading)) for pane in picture.panes)
+    said = (picture.title, picture.corner, picture.legend, picture.caption, picture.formula)
+    growth = _growth(named, said, picture.scale, picture.growth, width, height, words)
+    return replace(picture, scale=picture.scale * growth / picture.growth, growth=growth)
+
+
+@lru_cache(maxsize=64)
+def _growth(
+    named: tuple[tuple[bool, bool], ...],
+    said: tuple[str, str, tuple[Entry, ...], str, str],
+    scale: float,
+    growth: float,
+    width: float,
+    height: float,
+    words: bool,
+) -> float:
+    """How much type can grow: panes with or without titles and readings, and what is ``said`` round them."""
+    title, corner, legend, caption, formula = said
+    panes = tuple(Pane(Diagram((0, 0, 1, 1)), title="-" * above, reading="-" * below) for above, below in named)
+    black = (0.0, 0.0, 0.0)
+
+    def leaves_room(smaller: int) -> bool:
+        part = 1 - smaller / STEPS * (1 - 1 / growth)
+        tried = Picture(panes, black, black, black, legend, title, caption, formula, corner, scale=scale * part)
+        around = _words(tried, width, height, words)
+        free = around.bottom - around.top - _title_room(tried, height) - _reading_room(tried, height)
+        return free >= ROOM * height
+
+    smaller = bisect_left(range(STEPS), True, key=leaves_room)
+    return growth - smaller / STEPS * (growth - 1)
 
 
 def _head(picture: Picture, width: float, unit: float) -> tuple[list[Primitive], float]:

@@ -4,7 +4,7 @@ Lengths in space are in the units of the control object, so that they scale with
 type are in *logical points* (1/1000 of the picture's height), so that they scale with the picture.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 from typing import TypeAlias
 
@@ -92,7 +92,7 @@ class Label:
 
 @dataclass(frozen=True, eq=False)
 class Pin:
-    """A flat mark over all that is in space, at a place of it; a thin line ties it to another place, if there is one."""
+    """A flat mark over all that is in space, at a place of it; a thin line ties it to another one, if there is one."""
 
     at: Floats
     shape: Shape
@@ -283,7 +283,9 @@ class Picture:
     formula: str = ""
     corner: str = ""
     stroke: float = 1.0
-    scale: float = field(default=1.0)
+    scale: float = 1.0
+    growth: float = 1.0
+    """The part of ``scale`` that is given up where words would leave too little of the picture."""
 
     @property
     def scenes(self) -> tuple[Scene, ...]:

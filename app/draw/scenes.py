@@ -83,7 +83,7 @@ def scene(
 
     ``share`` is the part of the picture that the pane has: on less room less is drawn.
     """
-    radius = _marker_radius(trace, frame) * share**-0.1
+    radius = _marker_radius(trace, frame, theme) * share**-0.1
     faint = _faint(frame.topology, len(frame.points))
     faint_before = _faint(frame.before.topology, len(frame.old_points))
     faces = _faces(frame, theme) if options.surface else ()
@@ -110,14 +110,14 @@ def _extent(trace: Trace) -> float:
     return float(np.linalg.norm(np.ptp(trace.control.points, axis=0))) / 2
 
 
-def _marker_radius(trace: Trace, frame: Frame) -> float:
+def _marker_radius(trace: Trace, frame: Frame, theme: Theme) -> float:
     size = _extent(trace)
     ends = frame.topology.ends
     lengths = np.linalg.norm(frame.points[ends[:, 0]] - frame.points[ends[:, 1]], axis=1)
     apart = lengths[lengths > 1e-6 * max(size, 1e-9)]
     typical = float(np.median(apart)) if apart.size else size
     fewer = (ROOM / max(frame.topology.n_vertices, ROOM)) ** (1 / 3)
-    return float(min(MARKER * size * fewer, CROWDED * typical))
+    return float(min(MARKER * size * fewer * theme.points, CROWDED * typical))
 
 
 def _faint(t: Connectivity, n_points: int) -> Mask:

@@ -79,6 +79,9 @@ class Theme:
     roles: Mapping[Role, Colour]
     stroke: float = 1.0
     type: float = 1.0
+    points: float = 1.0
+    growth: float = 1.0
+    """The part of the size of type that is given up where there is no room for it."""
     words: Mapping[str, str] = field(default_factory=lambda: dict(WORDS))
     extraordinary: Colour | None = None
     """Extraordinary vertices among the originals, where they have a colour of their own."""
@@ -160,6 +163,13 @@ def theme_of(lesson: Lesson, name: str, as_caption: bool) -> Theme:
     roles = {role: named[lesson.colours[role]] for role in theme.roles if role in lesson.colours}
     special = named.get(lesson.colours.get(EXTRAORDINARY, ""))
     return replace(theme, roles={**theme.roles, **roles}, words={**theme.words, **words}, extraordinary=special)
+
+
+def enlarged(theme: Theme, scale: float) -> Theme:
+    """A theme at a scale: type grows with it, strokes and points with its root; none is smaller than can be read."""
+    growth = max(scale, 1.0)
+    heavy = growth**0.5
+    return replace(theme, stroke=theme.stroke * heavy, points=heavy, type=theme.type * growth, growth=growth)
 
 
 def _word(what: Meaning) -> str:

@@ -11,6 +11,8 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+from app.words import LANGUAGES, SYSTEM, speak, system_language
+
 os.environ["QT_API"] = "pyside6"  # before pyvistaqt asks
 
 from PySide6.QtCore import (
@@ -58,10 +60,11 @@ def run(
     path: Path | None = None,
     own: Path | None = None,
     is_trusted: bool = False,
+    language: str = "",
 ) -> int:
     """Open the window at a lesson and a step (from 1), and stay until it is closed; the exit status.
 
-    ``theme`` overrules the one that the window remembers.  ``opening`` leads from there to what is
+    ``theme`` and ``language`` overrule those that the window remembers.  ``opening`` leads from there to what is
     to be open; ``path`` is the file it was in, if it was.  ``own`` is a folder of lessons to open, which ``is_trusted``
     to run or is asked for; else it is the one that was open last.
     """
@@ -72,6 +75,7 @@ def run(
         return _refuse(NO_OPENGL)
     log = keep_log()
     settings = settings_file()
+    speak(language or settings_language(settings))
     state = first_state(lesson, step, theme or settings_theme(settings), as_caption)
     state = state if settings.value("asking", "on") == "off" else toggle_asking(state)
     state = opening(choose(state, reduced_motion=settings.value("reduced_motion", "off") == "on"))
@@ -107,7 +111,7 @@ def application() -> QApplication:
     app = QApplication(sys.argv[:1])
     app.setApplicationName(NAME)
     app.setDesktopFileName("subdivision-studio")
-    app.setStyle("Fusion")
+    app.setStyle(look.Style())
     app.setWindowIcon(look.studio_icon())
     look.load_fonts()
     app.setFont(look.type_face(14))
@@ -141,6 +145,12 @@ def settings_theme(settings: QSettings) -> str:
     chosen = str(settings.value("theme", "light"))
     theme = system_theme() if chosen == "system" else chosen
     return theme if theme in THEMES else "light"
+
+
+def settings_language(settings: QSettings) -> str:
+    """The language that the window remembers; at first the system's."""
+    chosen = str(settings.value("language", SYSTEM))
+    return chosen if chosen in LANGUAGES else system_language()
 
 
 def settings_scale(settings: QSettings) -> float:

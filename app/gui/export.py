@@ -29,6 +29,8 @@ from app.gui.banner import Banner
 from app.gui.look import GRID, px
 from app.state import State
 from app.strict import KeepingError
+from app.words import headed, tr
+from subdivision.words import phrase
 
 OF = {"view": "What is shown", "lesson": "This lesson", "everything": "The whole lecture"}
 SIZES = {
@@ -52,7 +54,7 @@ class ExportDialog(QDialog):
     def __init__(self, parent: QWidget, theme: str, first: Wish) -> None:
         super().__init__(parent)
         self._theme = theme
-        self.setWindowTitle("Export")
+        self.setWindowTitle(tr("Export"))
         self.of = _choice("What", "Which part is exported", OF)
         self.format = _choice("Format", "What kind of file", {name: kind.title for name, kind in FORMATS.items()})
         self.pixels = _choice(
@@ -61,12 +63,12 @@ class ExportDialog(QDialog):
         self.pixels.setEditable(True)
         self.background = _choice("Background", "What is behind the picture", {b: b.capitalize() for b in BACKGROUNDS})
         self.pace = _choice("Pace", "How fast a film plays", {pace: name for name, pace in PACES.items()})
-        self.limit = QCheckBox("On the limit surface")
-        self.limit.setAccessibleName("On the limit surface")
-        self.limit.setToolTip("Push the vertices of the mesh to where they tend")
+        self.limit = QCheckBox(tr("On the limit surface"))
+        self.limit.setAccessibleName(tr("On the limit surface"))
+        self.limit.setToolTip(tr("Push the vertices of the mesh to where they tend"))
         self.remark = QLabel(wordWrap=True)
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        self.go = self.buttons.addButton("Export…", QDialogButtonBox.ButtonRole.AcceptRole)
+        self.go = self.buttons.addButton(tr("Export…"), QDialogButtonBox.ButtonRole.AcceptRole)
         self.go.setDefault(True)
         for button in self.buttons.buttons():
             button.setIcon(QIcon())
@@ -90,7 +92,7 @@ class ExportDialog(QDialog):
     def _size(self) -> tuple[int, int]:
         width, _, height = self.pixels.currentText().lower().replace("×", "x").replace(" ", "").partition("x")
         if not (width.isdecimal() and height.isdecimal()):
-            raise ExportError(f"'{self.pixels.currentText()}' is no size; write it as 1920 x 1080")
+            raise ExportError(phrase("'{text}' is no size; write it as 1920 x 1080", text=self.pixels.currentText()))
         return int(width), int(height)
 
     def _lay_out(self) -> None:
@@ -135,7 +137,7 @@ class ExportDialog(QDialog):
             self._say("Several files, into a folder of your choice." if wish.is_folder else "", is_good=True)
 
     def _say(self, sentence: str, *, is_good: bool) -> None:
-        self.remark.setText(sentence[:1].upper() + sentence[1:])
+        self.remark.setText(headed(tr(sentence)))
         self._form.setRowVisible(self.remark, bool(sentence))
         self.go.setEnabled(is_good)
         self.adjustSize()
@@ -143,10 +145,10 @@ class ExportDialog(QDialog):
 
 def _choice(name: str, tip: str, values: Mapping[Any, str]) -> QComboBox:
     box = QComboBox()
-    box.setAccessibleName(name)
-    box.setToolTip(tip)
+    box.setAccessibleName(tr(name))
+    box.setToolTip(tr(tip))
     for value, shown in values.items():
-        box.addItem(shown, value)
+        box.addItem(tr(shown), value)
     return box
 
 
@@ -183,7 +185,7 @@ class Exporter(QObject):
         self._process.readyReadStandardOutput.connect(self._heard)
         self._process.setWorkingDirectory(str(Path(app.__file__).parent.parent))
         self._process.start(sys.executable, ["-m", "app", *arguments(kept, state, wish, out)])
-        self._banner.wait(f"Exporting {out.name} …", self.cancel)
+        self._banner.wait(phrase("Exporting {name} …", name=out.name), self.cancel)
 
     def cancel(self) -> None:
         """Stop; what was begun goes."""
@@ -206,7 +208,8 @@ class Exporter(QObject):
             found = told(bytes(self._process.readLine().data()).decode().strip())
             if found is not None and not self._is_cancelled:
                 done, name = found
-                self._banner.progress(done, f"Exporting {name or self._out.name} … {done:.0%}")
+                words = phrase("Exporting {name} … {done:.0%}", name=name or self._out.name, done=done)
+                self._banner.progress(done, words)
 
     def _failed(self) -> None:
         if self._process is not None and self._process.error() == QProcess.ProcessError.FailedToStart:
@@ -222,13 +225,12 @@ class Exporter(QObject):
         if self._is_cancelled:
             self._banner.tell("The export was cancelled; nothing is left of it.")
         elif status == 0:
-            self._banner.tell(f"Exported {self._out}")
+            self._banner.tell(phrase("Exported {path}", path=self._out))
         else:
             LOG.warning("export: %s", said)
             sentence = said.rpartition("\n")[2].removeprefix("subdivision-studio: ")
-            self._banner.say(
-                f"{sentence[:1].upper()}{sentence[1:]}." if sentence else "The export failed; see the log."
-            )
+            told_why = phrase("{reason:sentence}", reason=sentence)
+            self._banner.say(told_why if sentence else "The export failed; see the log.")
 
     def _end(self) -> None:
         if self._process is not None:
@@ -245,5 +247,6 @@ def arguments(kept: Path, state: State, wish: Wish, out: Path) -> list[str]:
     return [
         "export", str(kept), "--output", str(out), "--format", wish.format, "--of", wish.of,
         "--size", f"{width}x{height}", "--background", wish.background, "--pace", str(wish.pace),
-        "--theme", state.options.theme, "--progress", *(["--limit"] if wish.limit else []),
+        "--theme", state.options.theme, "--scale", f"{state.options.scale:.0%}", "--progress",
+        "--language", state.options.language, *(["--limit"] if wish.limit else []),
     ]  # fmt: skip

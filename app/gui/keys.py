@@ -12,6 +12,7 @@ from app.asking import answers, is_open, predict, take_back
 from app.draw.pointed import ACROSS
 from app.editing import turn_sharpness
 from app.gui.editing import EDITS, SHARPNESS
+from app.gui.look import SCALES
 from app.gui.shown import SHOWN
 from app.gui.surface import NEXT, SWITCHES, show_next
 from app.gui.timeline import SPEEDS, next_speed, spoken_speed
@@ -29,7 +30,9 @@ from app.state import (
     turn_knob,
     turn_level,
 )
+from app.words import LANGUAGES, SYSTEM
 from lessons.questions import MOST as MOST_ANSWERS
+from subdivision.words import phrase
 
 if TYPE_CHECKING:
     from app.gui.window import Window
@@ -72,21 +75,40 @@ def _theme(name: str) -> Command:
     return Command(f"theme_{name}", name.capitalize(), "Theme", (), lambda w: w.choose_theme(name))
 
 
+def _language(code: str, name: str) -> Command:
+    return Command(f"language_{code}", name, "Language", (), lambda w: w.choose_language(code))
+
+
 def _speed(speed: float) -> Command:
     name = spoken_speed(speed)
     return Command(f"speed_{speed:g}", name, "Speed", (), _wish(choose, speed=speed), lambda o: o.speed == speed)
 
 
+def _scale(scale: float) -> Command:
+    name = f"{scale:.0%}"
+    return Command(
+        f"scale_{name[:-1]}", name, "Interface scale", (), lambda w: w.choose_scale(scale), lambda o: o.scale == scale
+    )
+
+
 def _across(key: int, across: str) -> Command:
-    name = f"Weights across {ACROSS[across].split(',')[0].removeprefix('to ')}"
+    name = WEIGHTS[across]
     return Command(
         f"across_{across}", name, "View", (str(key),), _wish(choose, across=across), lambda o: o.across == across,
         when=lambda state: not answers(state),
     )  # fmt: skip
 
 
+WEIGHTS = {
+    "stage": "Weights across one stage",
+    "step": "Weights across one whole step",
+    "all": "Weights across all levels",
+    "limit": "Weights across the limit",
+}
+
+
 def _answer(number: int) -> Command:
-    name = f"Answer {number} to a question"
+    name = phrase("Answer {number} to a question", number=number)
     return Command(
         f"answer_{number}", name, "Lesson", (str(number),), _wish(predict, number - 1),
         when=lambda state: number <= answers(state),
@@ -126,7 +148,6 @@ COMMANDS = (
     Command("take_back", "Take the last prediction back", "Lesson", ("Backspace",), _wish(take_back),
             when=lambda state: is_open(state) and bool(state.predicted)),
     Command("search", "Find a lesson", "Lesson", ("Ctrl+K",), lambda w: w.find_lesson(), icon="search"),
-    Command("record", "Record this view as a step…", "Lesson", ("Ctrl+R",), lambda w: w.recorder.choose()),
     Command("new_lesson", "New lesson…", "Lesson", (), lambda w: w.authoring.new_lesson()),
     Command("show_folder", "Show lessons folder", "Lesson", (), lambda w: w.authoring.show_folder()),
     Command("present", "Full screen", "Present", ("F5", "Shift+F5", "F11"), lambda w: w.toggle_presenting(),
@@ -145,6 +166,9 @@ COMMANDS = (
     Command("shown", "Details panel", "View", ("F10",), lambda w: w.toggle_panel("details"), icon="shown"),
     Command("reduced_motion", "Reduced motion", "View", ("Ctrl+M",), lambda w: w.toggle_reduced_motion(),
             lambda o: o.reduced_motion),
+    Command("larger", "Larger", "View", ("Ctrl++", "Ctrl+="), lambda w: w.turn_scale(1), repeats=True),
+    Command("smaller", "Smaller", "View", ("Ctrl+-",), lambda w: w.turn_scale(-1), repeats=True),
+    Command("usual_size", "As large as usual", "View", ("Ctrl+0",), lambda w: w.choose_scale(1.0)),
     Command("camera", "Reset the view", "View", ("R",), lambda w: w.viewport.reset_camera()),
     Command("open", "Open…", "File", ("Ctrl+O",), lambda w: w.choose_file()),
     Command("lessons_folder", "Lessons folder…", "File", (), lambda w: w.authoring.choose_folder()),
@@ -164,7 +188,9 @@ COMMANDS = (
     Command("keys", "Keys", "Help", ("?", "F1"), lambda w: w.toggle_keys()),
     Command("about", "About Subdivision Studio", "Help", (), lambda w: w.toggle_about()),
     *(_theme(name) for name in ("light", "dark", "projector", "system")),
+    *(_language(code, name) for code, name in {SYSTEM: "System", **LANGUAGES}.items()),
     *(_speed(speed) for speed in SPEEDS),
+    *(_scale(scale) for scale in SCALES),
 )  # fmt: skip
 
 BY_ID = {c.id: c for c in COMMANDS}
@@ -190,7 +216,7 @@ def spelled_keys(command: Command) -> tuple[str, ...]:
 
 
 def _parts(key: str) -> list[str]:
-    return [key] if key in "+-" else key.split("+")
+    return [*filter(None, key[:-1].split("+")), "+"] if key.endswith("+") else key.split("+")
 
 
 HARMLESS = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier

@@ -6,7 +6,7 @@ from functools import cache
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QIcon, QPainter, QPalette, QPixmap
 from PySide6.QtSvg import QSvgRenderer
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QProxyStyle, QStyle, QStyleOption, QWidget
 
 from app import ASSETS
 from app.draw.picture import Colour
@@ -15,6 +15,9 @@ from app.draw.theme import THEMES, Theme, mixed
 FAMILY = "Inter"
 GRID = 8
 """All distances in the window are multiples of it (or of its half), in pixels at 100 %."""
+
+SCALES = (0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5)
+"""How large the window can be."""
 
 _scale = 1.0
 
@@ -73,6 +76,26 @@ def load_fonts() -> None:
     """Make the shipped typeface known to Qt."""
     for file in sorted((ASSETS / "fonts").glob("*.otf")):
         QFontDatabase.addApplicationFont(str(file))
+
+
+class Style(QProxyStyle):
+    """Fusion with its own measures (indicators, arrows, small icons) at the scale of the window."""
+
+    def __init__(self) -> None:
+        super().__init__("Fusion")
+        self._is_within = False
+
+    def pixelMetric(
+        self, metric: QStyle.PixelMetric, option: QStyleOption | None = None, widget: QWidget | None = None
+    ) -> int:
+        if self._is_within:  # one measure asks for another
+            return super().pixelMetric(metric, option, widget)
+        self._is_within = True
+        try:
+            usual = super().pixelMetric(metric, option, widget)
+        finally:
+            self._is_within = False
+        return px(usual) if usual > 0 else usual
 
 
 def dress(app: QApplication, theme: Theme) -> None:
@@ -159,15 +182,20 @@ def sheet(theme: Theme) -> str:
     return text
 
 
-@cache
 def icon(name: str, theme_name: str) -> QIcon:
     """One of ``assets/icons`` in the ink of a theme, in the sizes that screens ask for."""
+    sizes = {round(finely * px(size)) for size in (16, 20) for finely in (1, 1.5, 2, 3)}
+    return _icon(name, theme_name, tuple(sorted(sizes)))
+
+
+@cache
+def _icon(name: str, theme_name: str, sizes: tuple[int, ...]) -> QIcon:
     theme = THEMES[theme_name]
     found = QIcon()
     faded = mixed(theme.panel, theme.ink, 0.35)
     for ink, mode in ((theme.ink, QIcon.Mode.Normal), (faded, QIcon.Mode.Disabled)):
         drawing = (ASSETS / "icons" / f"{name}.svg").read_text().replace("currentColor", colour(ink).name())
-        for size in (12, 16, 20, 24, 32, 40, 48, 64, 96, 128):
+        for size in sizes:
             found.addPixmap(drawn(drawing, size), mode)
     return found
 

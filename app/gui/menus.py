@@ -9,10 +9,12 @@ import lessons
 from app.draw.pointed import ACROSS
 from app.draw.theme import THEMES
 from app.gui.editing import EDITS, SHARPNESS
+from app.gui.look import SCALES
 from app.gui.shown import SHOWN
 from app.gui.surface import SWITCHES
 from app.gui.timeline import SPEEDS
 from app.state import open_lesson
+from app.words import LANGUAGES, SYSTEM, tr
 
 if TYPE_CHECKING:
     from app.gui.window import Window
@@ -21,7 +23,7 @@ MENUS = (
     ("File", ("open", "@Recent", "lessons_folder", "", "save", "save_as", "copy_link", "paste_link", "",
               "save_picture", "copy", "export", "page", "", "quit")),
     ("Edit", ("undo", "redo", "", *(edit[0] for edit in EDITS), "", *(turn[0] for turn in SHARPNESS))),
-    ("View", ("@Theme", "reduced_motion", "", *(option for option, _, _ in SHOWN), "",
+    ("View", ("@Theme", "@Language", "@Interface scale", "reduced_motion", "", *(option for option, _, _ in SHOWN), "",
               *(option for option, _, _ in SWITCHES), "surface_next", "", *(f"across_{k}" for k in ACROSS), "",
               "camera", "contents", "shown")),
     ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "more", "less",
@@ -35,20 +37,23 @@ MENUS = (
 
 def fill(window: "Window") -> None:
     """Hang all menus into the window's menu bar."""
-    inside = {"@Recent": _recent, "@Theme": _themes, "@Speed": _speeds, "@Lessons": _lessons}
+    inside = {
+        "@Recent": _recent, "@Theme": _themes, "@Language": _languages, "@Interface scale": _scales,
+        "@Speed": _speeds, "@Lessons": _lessons,
+    }  # fmt: skip
     for name, ids in MENUS:
-        menu = window.menuBar().addMenu(name)
+        menu = window.menuBar().addMenu(tr(name))
         for id_ in ids:
             if not id_:
                 menu.addSeparator()
             elif id_ in inside:
-                inside[id_](window, menu.addMenu(id_[1:]))
+                inside[id_](window, menu.addMenu(tr(id_[1:])))
             else:
                 menu.addAction(window.actions_by_id[id_])
 
 
 def _recent(window: "Window", menu: QMenu) -> None:
-    menu.setTitle("Open recent")
+    menu.setTitle(tr("Open recent"))
     menu.setToolTipsVisible(True)
     menu.aboutToShow.connect(lambda: _list_recent(window, menu))
 
@@ -73,6 +78,27 @@ def _themes(window: "Window", menu: QMenu) -> None:
     menu.aboutToShow.connect(lambda: window.actions_by_id[f"theme_{window.theme_choice()}"].setChecked(True))
 
 
+def _languages(window: "Window", menu: QMenu) -> None:
+    group = QActionGroup(menu)
+    for code in (*LANGUAGES, SYSTEM):
+        action = window.actions_by_id[f"language_{code}"]
+        action.setCheckable(True)
+        group.addAction(action)
+        menu.addAction(action)
+    menu.aboutToShow.connect(lambda: window.actions_by_id[f"language_{window.language_choice()}"].setChecked(True))
+
+
+def _scales(window: "Window", menu: QMenu) -> None:
+    group = QActionGroup(menu)
+    for scale in SCALES:
+        action = window.actions_by_id[f"scale_{scale:.0%}".removesuffix("%")]
+        group.addAction(action)
+        menu.addAction(action)
+    menu.addSeparator()
+    for id_ in ("larger", "smaller", "usual_size"):
+        menu.addAction(window.actions_by_id[id_])
+
+
 def _speeds(window: "Window", menu: QMenu) -> None:
     for speed in SPEEDS:
         menu.addAction(window.actions_by_id[f"speed_{speed:g}"])
@@ -91,8 +117,8 @@ def _list_lessons(window: "Window", menu: QMenu) -> None:
     for lesson in lessons.all_lessons():
         if lesson.section != section:
             section = lesson.section
-            menu.addSection(section)
-        action = menu.addAction(lesson.title)
+            menu.addSection(tr(section))
+        action = menu.addAction(tr(lesson.title))
         action.setCheckable(True)
         action.setChecked(lesson.id == window.session.state.lesson.id)
         action.triggered.connect(lambda _, lesson=lesson: window.session.do(open_lesson, lesson))

@@ -1,5 +1,6 @@
 """The caption and its formula, under the picture and large enough for the back row."""
 
+from bisect import bisect_left
 from functools import lru_cache
 from typing import TypeAlias
 
@@ -16,9 +17,13 @@ from app.gui.brush import type_
 from app.gui.look import GRID, colour
 from app.gui.session import Session
 from app.state import State, stops
+from app.words import tr
 
 SMALL, LARGE = 1 / 34, 1 / 28
 """Size of the caption relative to the window's height, at a desk and when presenting."""
+
+ROOM, STEPS = 1 / 4, 32
+"""Enlarged, it takes no more of the window's height than the first; it is fitted in so many steps."""
 
 HINT_ROOM = 0.5
 """Relative to the size of the caption."""
@@ -28,6 +33,9 @@ LINE = 1.32
 
 Piece: TypeAlias = tuple[str, float, float, str]
 """Type: its words, x from the middle, baseline, alignment."""
+
+Told: TypeAlias = tuple[str, str, bool]
+"""What a beat says: its caption, its formula, whether it asks."""
 
 HINT = "Space or PageDown: next stage"
 WHERE_HINT = "Click where you think it goes, up to 8 times. Backspace: take one back. Next: see"
@@ -57,15 +65,8 @@ class Narration(QWidget):
 
     def height_for(self, width: int, window_height: int) -> int:
         """Room for every beat of the lesson, on the grid."""
-        state = self._session.state
-        size = self._size(state, window_height)
-        heights = [
-            _laid(said(state, b), b.formula, size, width)[1] + (HINT_ROOM * size if b.asks is not None else 0.0)
-            for b in state.lesson.beats
-        ]
-        tall = max(heights[0] + HINT_ROOM * size, *heights)
-        most = window_height // 3
-        return int(min(-(-(tall + 1.1 * size) // GRID) * GRID, most))
+        tall = _tall(self._told(), self._size(width, window_height), width)
+        return int(min(-(-tall // GRID) * GRID, window_height // 3))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         state = self._session.state
@@ -75,29 +76,53 @@ class Narration(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.fillRect(self.rect(), colour(theme.background))
-        size = self._size(state, self.window().height())
+        size = self._size(self.width(), self.window().height())
         lines, tall = _laid(said(state, state.now), state.now.formula, size, self.width())
         room = self.height() - 1.1 * size - (HINT_ROOM * size if self._hint(state) else 0.0)
         top = 0.3 * size + max(room - tall, 0) / 2
         for text, x, y, align in lines:
             type_(painter, Text(self.width() / 2 + x, top + y, text, size, theme.ink, align))
         if hint := self._hint(state):
-            small = 0.62 * size
+            small = min(0.62 * size, 0.94 * self.width() / measure(hint, 1.0)[0])
             type_(painter, Text(self.width() / 2, self.height() - 0.55 * small, hint, small, theme.muted, "center"))
         painter.end()
 
     def _hint(self, state: State) -> str:
         """What to do first, until it has been done; and at a question."""
         if is_open(state):
-            return ANSWER_HINT if answers(state) else WHERE_HINT
+            return tr(ANSWER_HINT if answers(state) else WHERE_HINT)
         first = stops(state.lesson)[0]
         if len(stops(state.lesson)) == 1:
             return ""
-        return HINT if (state.beat, state.at) == (first.beat, first.at) and not state.is_playing else ""
+        return tr(HINT) if (state.beat, state.at) == (first.beat, first.at) and not state.is_playing else ""
 
-    def _size(self, state: State, window_height: int) -> float:
-        part = LARGE if state.options.presenting else SMALL
-        return max(window_height * part, 19.0) * THEMES[state.options.theme].type
+    def _told(self) -> tuple[Told, ...]:
+        """Every beat of the lesson."""
+        state = self._session.state
+        return tuple((said(state, b), b.formula, b.asks is not None) for b in state.lesson.beats)
+
+    def _size(self, width: int, window_height: int) -> float:
+        """Of the caption's type: at a larger scale of the window larger, as far as there is room."""
+        o = self._session.state.options
+        usual = max(window_height * (LARGE if o.presenting else SMALL), 19.0) * THEMES[o.theme].type
+        wished = usual * max(o.scale, 1.0)
+        return _fitted(self._told(), usual, wished, width, window_height * ROOM) if wished > usual else usual
+
+
+@lru_cache(maxsize=64)
+def _fitted(told: tuple[Told, ...], usual: float, wished: float, width: float, room: float) -> float:
+    """The largest size up to what is wished at which every beat has room; never less than the usual one."""
+    sizes = [wished + k / STEPS * (usual - wished) for k in range(STEPS + 1)]
+    return sizes[bisect_left(sizes[:-1], True, key=lambda size: _tall(told, size, width) <= room)]
+
+
+def _tall(told: tuple[Told, ...], size: float, width: float) -> float:
+    """What the tallest of the beats takes; the first one, and questions, have a hint below them."""
+    heights = [
+        _laid(text, formula, size, width)[1] + (HINT_ROOM * size if asks or k == 0 else 0.0)
+        for k, (text, formula, asks) in enumerate(told)
+    ]
+    return max(heights) + 1.1 * size
 
 
 @lru_cache(maxsize=512)

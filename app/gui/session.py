@@ -9,7 +9,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 from app.bench import pull
 from app.boxlab import move_pass, move_vector
 from app.report import Recent
-from app.state import State, drag, look, seek, settle, tick, turn_view
+from app.state import Options, State, drag, look, seek, settle, tick, turn_view
 
 STAGE = 0.8
 """Seconds a stage takes at speed 1."""
@@ -22,6 +22,11 @@ SLOWEST = 100
 
 REMEMBERED = 500
 """How many changes can be undone."""
+
+NOT_UNDONE = ("presenting", "blank", "scale", "language")
+"""Options that are no change of what is shown: undoing leaves them."""
+
+USUAL = Options()
 
 Transition: TypeAlias = Callable[..., State]
 
@@ -97,7 +102,7 @@ class Session(QObject):
             self._gesture = None
             now = self.state.options
             kept = source.pop()
-            options = replace(kept.options, presenting=now.presenting, blank=now.blank)
+            options = replace(kept.options, **{name: getattr(now, name) for name in NOT_UNDONE})
             self._become(kept if options == kept.options else replace(kept, options=options))
 
     def _become(self, state: State) -> None:
@@ -130,4 +135,5 @@ def _is_passing(transition: Transition, before: State, after: State) -> bool:
 
 
 def _plain(state: State) -> State:
-    return replace(state, focus=None, picked=None, options=replace(state.options, presenting=False, blank=False))
+    usual = replace(state.options, **{name: getattr(USUAL, name) for name in NOT_UNDONE})
+    return replace(state, focus=None, picked=None, options=usual)

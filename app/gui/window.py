@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QApplication,
     QFileDialog,
     QHBoxLayout,
+    QLayout,
     QMainWindow,
     QMenuBar,
     QMessageBox,
@@ -43,12 +44,11 @@ from app.gui.furniture import enter_what_is_typed, seat_of, sit_down, throw_away
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
 from app.gui.laboratory import Laboratory
-from app.gui.look import GRID, colour, dress, icon, line_of, px, system_theme
+from app.gui.look import GRID, SCALES, colour, dress, fine, icon, line_of, px, rescale, system_theme
 from app.gui.notes import Notes
 from app.gui.opening import Opener
 from app.gui.parts import Section, column
 from app.gui.presenter import Presenter, spare_screen
-from app.gui.recorder import Recorder
 from app.gui.session import Session
 from app.gui.sheets import About, Keys
 from app.gui.shown import Shown
@@ -64,13 +64,15 @@ from app.opening import OPENABLE
 from app.report import apart
 from app.state import State, choose, pick
 from app.strict import KeepingError
+from app.words import SYSTEM, language, speak, system_language, tr
+from subdivision.words import phrase
 
 NAME = "Subdivision Studio"
-LEFT, RIGHT = 200, 200
-"""Widths of the side panels."""
+WIDE = {"contents": 200, "details": 200}
+"""Widths of the side panels, in pixels at 100 %."""
 
-NARROW = 1100
-"""Below this width the right panel waits behind its button."""
+ROOMY = {"contents": 700, "details": 1100}
+"""In a window narrower than this a panel waits behind its button; in pixels at 100 %."""
 
 
 class Window(QMainWindow):
@@ -84,7 +86,10 @@ class Window(QMainWindow):
 
     def __init__(self, session: Session, settings: QSettings) -> None:
         super().__init__()
+        speak(session.state.options.language)
         self.session, self.settings = session, settings
+        self._scale, self._wide = session.state.options.scale, {name: float(wide) for name, wide in WIDE.items()}
+        rescale(self._scale)
         self.document = Document(session, settings)
         self._entitle()
         self.setAcceptDrops(True)
@@ -96,11 +101,10 @@ class Window(QMainWindow):
         self.worker = Worker(session, self.banner)
         self._build()
         self._put_up()
-        self._splitter.setSizes([LEFT, 10_000, RIGHT])
+        self._widen()
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
         self.opener = Opener(session, self.banner, self.opened)
         self.authoring = Authoring(self, Path(settings.fileName()).with_name("lessons.json"))
-        self.recorder = Recorder(self)
         self.contents.asked.connect(self.banner.say)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
@@ -114,6 +118,14 @@ class Window(QMainWindow):
     # -- showing --------------------------------------------------------------------------------
 
     def show_state(self, state: State) -> None:
+        if state.options.language != language():
+            speak(state.options.language)
+            self.furnish()
+            return
+        if state.options.scale != self._scale:
+            self._theme = ""
+            self.furnish()
+            return
         if state.options.theme != self._theme:
             self._dress(state.options.theme)
         for view in self._views:
@@ -142,6 +154,18 @@ class Window(QMainWindow):
         line = colour(line_of(THEMES[theme])).name()
         for hairline in self._hairlines:
             hairline.setStyleSheet(f"background: {line}")
+            hairline.setFixedHeight(px(1))
+
+    def _note_widths(self) -> None:
+        """How wide the panels are, those that are shown."""
+        for (name, side), wide in zip(self._sides.items(), self._splitter.sizes()[::2], strict=True):
+            if not side.isHidden():
+                self._wide[name] = wide / self._scale
+
+    def _widen(self) -> None:
+        """Each panel as wide as it was, at the scale of the window."""
+        self._splitter.setHandleWidth(px(1))
+        self._splitter.setSizes([px(self._wide["contents"]), 10_000, px(self._wide["details"])])
 
     # -- commands -------------------------------------------------------------------------------
 
@@ -188,8 +212,7 @@ class Window(QMainWindow):
         """Show or hide one of the side panels."""
         side = self._sides[name]
         side.setVisible(side.isHidden())
-        if name == "details":
-            self._wants_details = not side.isHidden()
+        self._wants[name] = not side.isHidden()
 
     def find_lesson(self) -> None:
         self._sides["contents"].show()
@@ -201,10 +224,26 @@ class Window(QMainWindow):
         self.contents.search.clear()
         self.viewport.setFocus()
 
+    def choose_language(self, code: str) -> None:
+        """A language, or the system's own from now on; the window remembers it."""
+        self.settings.setValue("language", code)
+        self.session.do(choose, language=system_language() if code == SYSTEM else code)
+
     def choose_theme(self, name: str) -> None:
         """A theme, or the system's own from now on."""
         self.settings.setValue("theme", name)
         self.session.do(choose, theme=system_theme() if name == "system" else name)
+
+    def choose_scale(self, scale: float) -> None:
+        """Everything larger or smaller; the window remembers it."""
+        self.settings.setValue("scale", f"{scale:.0%}".removesuffix("%"))
+        self.session.do(choose, scale=scale)
+
+    def turn_scale(self, by: int) -> None:
+        """The next larger or smaller size, if there is one."""
+        k = SCALES.index(self.session.state.options.scale) + by
+        if 0 <= k < len(SCALES):
+            self.choose_scale(SCALES[k])
 
     def toggle_reduced_motion(self) -> None:
         """Let stages fade instead of moving, or move again; the window remembers it."""
@@ -219,8 +258,8 @@ class Window(QMainWindow):
 
     def choose_file(self) -> None:
         patterns = " ".join(f"*{suffix}" for suffix in OPENABLE)
-        names = f"Meshes and sessions ({patterns})"
-        path, _ = QFileDialog.getOpenFileName(self, "Open a mesh or a session", self._folder("meshes"), names)
+        names = tr(phrase("Meshes and sessions ({patterns})", patterns=patterns))
+        path, _ = QFileDialog.getOpenFileName(self, tr("Open a mesh or a session"), self._folder("meshes"), names)
         if path:
             self.settings.setValue("folder_meshes", str(Path(path).parent))
             self.open_file(path)
@@ -235,7 +274,8 @@ class Window(QMainWindow):
             self.open_file(str(path))
             return
         self.document.forget(path)
-        self.banner.say(f"{path} is no longer there, so it is no longer in the list; open it from where it is now.")
+        gone = "{path} is no longer there, so it is no longer in the list; open it from where it is now."
+        self.banner.say(phrase(gone, path=path))
 
     def opened(self, path: Path) -> None:
         """A file has been opened: a session stays open, a mesh is in the laboratory."""
@@ -254,12 +294,14 @@ class Window(QMainWindow):
 
     def save_session_as(self) -> None:
         suggested = self.document.path or Path(self._folder("sessions")) / f"{self.session.state.lesson.id}{SUFFIX}"
-        path, _ = QFileDialog.getSaveFileName(self, "Save the session", str(suggested), f"Sessions (*{SUFFIX})")
+        kind = tr(phrase("Sessions ({pattern})", pattern=f"*{SUFFIX}"))
+        path, _ = QFileDialog.getSaveFileName(self, tr("Save the session"), str(suggested), kind)
         if not path:
             return
         self.settings.setValue("folder_sessions", str(Path(path).parent))
         if (whole := named(Path(path))) != Path(path) and whole.exists():
-            self.banner.say(f"{whole.name} is there already; choose it by its whole name to replace it.")
+            there = "{name} is there already; choose it by its whole name to replace it."
+            self.banner.say(phrase(there, name=whole.name))
         else:
             self.save_session_to(whole)
 
@@ -270,7 +312,7 @@ class Window(QMainWindow):
         except KeepingError as fault:
             self.banner.say(str(fault))
         else:
-            self.banner.tell(f"Saved {written}")
+            self.banner.tell(phrase("Saved {path}", path=written))
             self._entitle()
 
     def copy_link(self) -> None:
@@ -304,7 +346,7 @@ class Window(QMainWindow):
     def save_picture(self) -> None:
         suggested = str(Path(self._folder("pictures")) / f"{self.session.state.lesson.id}.png")
         kinds = "PNG (*.png);;SVG (*.svg);;PDF (*.pdf)"
-        path, _ = QFileDialog.getSaveFileName(self, "Save the picture", suggested, kinds)
+        path, _ = QFileDialog.getSaveFileName(self, tr("Save the picture"), suggested, kinds)
         if path:
             self.settings.setValue("folder_pictures", str(Path(path).parent))
             self.save_picture_to(path)
@@ -316,7 +358,7 @@ class Window(QMainWindow):
         except saving.SavingError as fault:
             self.banner.say(str(fault))
         else:
-            self.banner.tell(f"Saved {written}")
+            self.banner.tell(phrase("Saved {path}", path=written))
 
     def choose_export(self) -> None:
         """Ask what is to be taken away, and where to; then make it."""
@@ -333,12 +375,12 @@ class Window(QMainWindow):
     def _ask_where(self, wish: Wish) -> Path | None:
         folder = Path(self._folder("exports"))
         if wish.is_folder:
-            chosen = QFileDialog.getExistingDirectory(self, "Export into a folder", str(folder))
+            chosen = QFileDialog.getExistingDirectory(self, tr("Export into a folder"), str(folder))
         else:
             name = "lecture" if wish.of == "everything" else self.session.state.lesson.id
-            kind = f"{wish.kind.title} (*{wish.kind.suffix})"
+            kind = f"{tr(wish.kind.title)} (*{wish.kind.suffix})"
             suggested = str(folder / f"{name}{wish.kind.suffix}")
-            chosen, _ = QFileDialog.getSaveFileName(self, "Export", suggested, kind)
+            chosen, _ = QFileDialog.getSaveFileName(self, tr("Export"), suggested, kind)
         if not chosen:
             return None
         self.settings.setValue("folder_exports", str(Path(chosen) if wish.is_folder else Path(chosen).parent))
@@ -378,20 +420,21 @@ class Window(QMainWindow):
     def _button(self, id_: str, size: int = 32) -> QToolButton:
         button = tool_button(BY_ID[id_].icon, self.session.state.options.theme, size)
         button.setDefaultAction(self.actions_by_id[id_])
-        button.setAccessibleName(BY_ID[id_].name)
+        button.setAccessibleName(tr(BY_ID[id_].name))
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         return button
 
     def _build(self) -> None:
         """What stays while the window stays: the picture, and places for the furniture round it."""
-        self._is_presenting, self._wants_details = False, True
+        self._is_presenting = False
+        self._wants, self._has_room = dict.fromkeys(WIDE, True), dict.fromkeys(WIDE, True)
         self._hairlines: list[QWidget] = []
         self._foot = QWidget()
         self._under = QVBoxLayout(self._foot)
         self._under.setContentsMargins(0, 0, 0, 0)
         middle = column(self.banner, self.viewport, self._hairline(), self._foot, stretched=self.viewport)
+        self._middle: QLayout = middle.layout()  # type: ignore[assignment]
         self._splitter = QSplitter(Qt.Orientation.Horizontal)
-        self._splitter.setHandleWidth(1)
         for part in (QWidget(), middle, QWidget()):
             self._splitter.addWidget(part)
         self._splitter.setStretchFactor(1, 1)
@@ -401,7 +444,11 @@ class Window(QMainWindow):
 
     def furnish(self) -> None:
         """Change the furniture for new, for other words or another size; everything else is as it was."""
+        self._note_widths()
+        self._scale = self.session.state.options.scale
+        rescale(self._scale)
         places = self._places()
+        self._middle.setEnabled(False)  # the picture changes its size once, at the end
         seat = seat_of(places, QApplication.focusWidget())
         if seat is not None:
             enter_what_is_typed()
@@ -417,6 +464,10 @@ class Window(QMainWindow):
             part.inherit(old)  # type: ignore[attr-defined]
         for sheet in self.sheets:
             sheet.update()
+        self._make_room()
+        self._widen()
+        self._middle.setEnabled(True)
+        self._middle.activate()
         sit_down(self._places(), seat)
 
     def _places(self) -> dict[str, QWidget]:
@@ -446,6 +497,7 @@ class Window(QMainWindow):
         for k, side in zip((0, 2), self._sides.values(), strict=True):
             old += [each for each in (self._splitter.replaceWidget(k, side),) if each is not None]
         self._under.addWidget(self.timeline)
+        old += [corner for corner in (self.menuBar().cornerWidget(),) if corner is not None]
         self.setMenuBar(QMenuBar())
         menus.fill(self)
         self._put_up_corner()
@@ -464,8 +516,8 @@ class Window(QMainWindow):
         for id_, action in self.actions_by_id.items():
             command = BY_ID[id_]
             keys = ", ".join(spelled_keys(command))
-            action.setText(command.name)
-            action.setToolTip(f"{command.name} ({keys})" if keys else command.name)
+            action.setText(tr(command.name))
+            action.setToolTip(f"{tr(command.name)} ({keys})" if keys else tr(command.name))
 
     def _details(self) -> Details:
         why = Section("Why is it here?", self.why, stretched=self.why)
@@ -474,7 +526,6 @@ class Window(QMainWindow):
 
     def _hairline(self) -> QWidget:
         line = QWidget()
-        line.setFixedHeight(1)
         self._hairlines.append(line)
         return line
 
@@ -494,9 +545,9 @@ class Window(QMainWindow):
         """Nothing but the picture, on the whole screen; or everything as it was."""
         self._is_presenting = is_on
         if is_on:
-            hidden = [side.isHidden() for side in self._sides.values()]
-            self._before = (self.windowState(), hidden, self._splitter.sizes())
-        was, hidden, sizes = self._before
+            self._note_widths()
+            self._before = (self.windowState(), [side.isHidden() for side in self._sides.values()])
+        was, hidden = self._before
         for side, was_hidden in zip(self._sides.values(), hidden, strict=True):
             side.setVisible(not is_on and not was_hidden)
         for part in (self.menuBar(), self.timeline, *self._hairlines):
@@ -508,7 +559,7 @@ class Window(QMainWindow):
                 self.presenter.open(self)
         else:
             self.presenter.close()
-            self._splitter.setSizes(sizes)
+            self._widen()
             self.setWindowState(was)
         QTimer.singleShot(0, self._show_again)
 
@@ -525,16 +576,25 @@ class Window(QMainWindow):
             self._splitter.restoreState(sizes)
         for name, side in self._sides.items():
             side.setHidden(self.settings.value(name, "shown") == "hidden")
-        self._wants_details = not self._sides["details"].isHidden()
+            self._wants[name] = not side.isHidden()
         self.details.restore(self.settings)
+
+    def _make_room(self) -> None:
+        """Panels that would leave too little of the picture wait behind their buttons, until there is room again."""
+        if self._is_presenting:
+            return
+        for name, side in self._sides.items():
+            if (has_room := self.width() >= fine(ROOMY[name])) != self._has_room[name]:
+                side.setVisible(self._wants[name] and has_room)
+                self._has_room[name] = has_room
 
     def _keep(self) -> None:
         if self._is_presenting:
             return
         self.settings.setValue("geometry", self.saveGeometry())
         self.settings.setValue("panels", self._splitter.saveState())
-        self.settings.setValue("contents", "hidden" if self.contents.isHidden() else "shown")
-        self.settings.setValue("details", "shown" if self._wants_details else "hidden")
+        for name, is_wanted in self._wants.items():
+            self.settings.setValue(name, "shown" if is_wanted else "hidden")
         self.details.keep(self.settings)
         self.settings.sync()
 
@@ -549,11 +609,15 @@ class Window(QMainWindow):
     def ask_to_save(self) -> QMessageBox.StandardButton:
         """Save, discard or cancel."""
         path, choices = self.document.path, QMessageBox.StandardButton
-        question = f"Save the changes to {path.name if path else NAME}?"
+        question = tr(phrase("Save the changes to {name}?", name=path.name if path else NAME))
         return QMessageBox.question(self, NAME, question, choices.Save | choices.Discard | choices.Cancel)
 
     def _folder(self, kind: str) -> str:
         return str(self.settings.value(f"folder_{kind}", str(Path.home())))
+
+    def language_choice(self) -> str:
+        """The language as it was chosen: perhaps the system's."""
+        return str(self.settings.value("language", SYSTEM))
 
     def theme_choice(self) -> str:
         """The theme as it was chosen: perhaps the system's."""
@@ -567,9 +631,7 @@ class Window(QMainWindow):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        was, is_ = (size.width() >= NARROW if size.isValid() else None for size in (event.oldSize(), event.size()))
-        if was != is_ and not self._is_presenting:
-            self._sides["details"].setVisible(self._wants_details and bool(is_))
+        self._make_room()
         for sheet in self.sheets:
             sheet.setGeometry(self.rect())
 

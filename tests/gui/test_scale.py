@@ -1,0 +1,85 @@
+"""Everything in the window larger or smaller, while it stands."""
+
+import pytest
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel
+
+from app import bench
+from app.gui.application import settings_scale
+from app.gui.keys import BY_ID, spelled_keys
+from app.gui.look import SCALES
+from app.state import toggle
+
+pytestmark = pytest.mark.window
+CTRL = Qt.KeyboardModifier.ControlModifier
+
+
+def press(window, key):
+    QTest.keyClick(window.windowHandle(), key, CTRL)
+
+
+def settle():
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    QApplication.processEvents()
+
+
+def sizes(window):
+    """Of each button and label, in order: its type, and the size of its icon."""
+    settle()
+    places = window._places()
+    everything = [each for place in places.values() for each in (*place.findChildren(QAbstractButton),
+                                                                 *place.findChildren(QLabel))]
+    return [
+        (type(each).__name__, each.font().pixelSize(), each.iconSize().width() if hasattr(each, "iconSize") else 0)
+        for each in everything
+    ]
+
+
+def test_larger_and_as_usual_by_the_keys(window):
+    window.session.do(toggle, "labels")
+    options, past = window.session.state.options, list(window.session._past)
+    for key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Plus):
+        press(window, key)
+    assert window.session.state.options.scale == 1.5 == settings_scale(window.settings)
+    assert window.actions_by_id["scale_150"].isChecked()
+    assert QApplication.font().pixelSize() == 21
+    press(window, Qt.Key.Key_Minus)
+    assert window.session.state.options.scale == 1.25
+    press(window, Qt.Key.Key_0)
+    assert (window.session.state.options, window.session._past) == (options, past)
+    press(window, Qt.Key.Key_Plus)
+    window.session.undo()
+    assert not window.session.state.options.labels
+    assert window.session.state.options.scale == 1.1
+    for by, end in ((1, max(SCALES)), (-1, min(SCALES))):
+        for _ in SCALES:
+            window.turn_scale(by)
+        assert window.session.state.options.scale == end
+    assert spelled_keys(BY_ID["larger"]) == ("Ctrl++", "Ctrl+=")
+    assert spelled_keys(BY_ID["smaller"]) == ("Ctrl+−",)
+
+
+def test_twice_the_scale_is_twice_the_size(window):
+    window.resize(1900, 1000)
+    window.session.do(bench.take, "cube")
+    usual = sizes(window)
+    window.choose_scale(2.0)
+    assert sizes(window) == [(kind, 2 * font, 2 * icon) for kind, font, icon in usual]
+    window.choose_scale(1.0)
+    assert sizes(window) == usual
+
+
+@pytest.mark.parametrize(("scale", "size"), [(2.5, (1280, 720)), (0.75, (720, 480)), (2.0, (1920, 1080)),
+                                             (1.5, (1280, 720))])
+def test_the_picture_keeps_half_of_the_window_and_nothing_is_cut_off(qtbot, window, scale, size):
+    window.choose_scale(scale)
+    window.resize(*size)
+    qtbot.waitUntil(lambda: (window.width(), window.height()) == size)
+    settle()
+    assert window.viewport.width() * window.viewport.height() >= 0.5 * size[0] * size[1]
+    inside = window.rect()
+    for part in (window.menuBar(), window.timeline, window.viewport, *window.timeline.findChildren(QAbstractButton)):
+        if part.isVisible():
+            assert inside.contains(part.rect().translated(part.mapTo(window, part.rect().topLeft())))
+            assert part.width() >= part.minimumSizeHint().width()
