@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from app import asking
+from app.draw import stencils
 from app.draw.picture import Box, Diagram, Label, Markers, Note, Pin, Scene, Shape
 from app.draw.selected import radius_of
 from app.draw.theme import Theme, mixed
@@ -23,9 +24,6 @@ ASKED, PREDICTION = "asked", "prediction"
 MARK = "?"
 MARK_SIZE, DISTANCE_SIZE = 42.0, 26.0
 """Of type in logical points."""
-
-CLEAR = (44.0, 44.0)
-"""How a distance keeps off the mark of its place, in logical points."""
 
 HALO = 1.15
 """Radius round the point that is asked for, relative to the markers that are there."""
@@ -53,10 +51,11 @@ def asked(scene: Scene, state: State, view: View, theme: Theme) -> Scene:
 
 
 def veiled(state: State, row: Stencil) -> list[str]:
-    """What stands in the place of the weights of a row: a mark at the one that is asked for."""
+    """What stands in the place of the weights of a row: room for them, and a mark at the one that is asked for."""
     question = state.now.asks
     asked_for = question.parent if isinstance(question, Weight) and row == question.row else -1
-    return [MARK if p == asked_for else "" for p, _ in row.terms]
+    rooms = ["\u00a0" * len(words) for words in stencils.spelled(row)]
+    return [MARK if p == asked_for else room for (p, _), room in zip(row.terms, rooms, strict=True)]
 
 
 def _with_mark(scene: Scene, state: State, view: View, stage: int, point: int, theme: Theme) -> Scene:
@@ -76,7 +75,7 @@ def _with_pins(scene: Scene, state: State, question: Where, theme: Theme) -> Sce
     truth: Floats = asking.place(state, question)
     pins = tuple(Pin(p, Shape.AIM, theme.guess, truth) for p in places)
     words = tuple(
-        Label(p, f"{distance:.2f}", theme.ink, DISTANCE_SIZE, CLEAR)
+        Label(p, f"{distance:.2f}", theme.ink, DISTANCE_SIZE)
         for p, distance in zip(places, asking.distances(state, question), strict=True)
     )
     return replace(scene, pins=pins, labels=(*scene.labels, *words))

@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from app.draw import pins
 from app.draw.picture import Camera, Label, Picture, Scene, Shape
 from app.draw.primitives import LEAST, Area, Primitive, Stroke, Text
 from app.draw.type import measure
@@ -40,6 +41,7 @@ def placed(scene: Scene, camera: Camera, area: Area, height: float, picture: Pic
         return []
     unit = height / 1000
     discs, strokes = _discs(scene, camera, area), _samples(scene, camera, area)
+    discs = np.vstack([discs, pins.discs(scene, camera, area, picture, height)])
     taken = np.zeros((0, 4))
     found: list[Primitive] = []
     for label in sorted(scene.labels, key=lambda one: -one.size):

@@ -12,9 +12,9 @@ from math import hypot
 
 import numpy as np
 
-from app.draw import bars, dotted
+from app.draw import bars, dotted, pins
 from app.draw.labels import placed
-from app.draw.picture import Box, Camera, Diagram, Dot, Entry, Link, Note, Pane, Picture, Scene, Shape
+from app.draw.picture import Box, Camera, Diagram, Dot, Entry, Link, Note, Pane, Picture
 from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, wrapped
 
@@ -45,9 +45,6 @@ IN_BOX = 1.18
 
 HEAD, SPREAD = 3.6, 0.55
 """How far an arrow's head reaches back, relative to the width of its stroke, and aside, relative to that."""
-
-PIN, TIE, RIM = 15.0, 2.6, 1.35
-"""Radius of a pin's mark, width of its line; how much larger is what sets the mark off from what lies under it."""
 
 FRAME, ROUND = 7.0, 12.0
 """A frame's stroke, and the radius of its corners."""
@@ -95,7 +92,7 @@ def overlay(
             found.extend(_diagram(pane.content, area, picture, height))
         else:
             seen = camera or fitted(pane.content.camera, area)
-            found.extend(_pins(pane.content, seen, area, picture, height))
+            found.extend(pins.drawn(pane.content, seen, area, picture, height))
             found.extend(placed(pane.content, seen, area, height, picture))
             found.extend(bars.drawn(pane.content, seen, area, picture, height))
         found.extend(_framed(pane, area, picture, height))
@@ -388,25 +385,6 @@ def _link(link: Link, cells: _Cells, width: float) -> list[Primitive]:
         x, y = part * (x0 - x1), part * (y0 - y1)
         starts += [(x1 + x - SPREAD * y, y1 + y + SPREAD * x), (x1 + x + SPREAD * y, y1 + y - SPREAD * x)]
     return [Stroke(*start, x1, y1, link.colour, width, link.opacity) for start in starts]
-
-
-def _pins(scene: Scene, camera: Camera, area: Area, picture: Picture, height: float) -> list[Primitive]:
-    """Marks over the scene, as far as they are in its pane, and their lines under them."""
-    unit = height / 1000
-    lines, marks = list[Primitive](), list[Primitive]()
-    for pin in scene.pins:
-        ends = np.vstack([pin.at, pin.at if pin.to is None else pin.to])
-        (x, y, _), (x1, y1, _) = (camera.project(ends, area[2], area[3]) + np.array([area[0], area[1], 0.0])).tolist()
-        if not (area[0] <= x <= area[0] + area[2] and area[1] <= y <= area[1] + area[3]):
-            continue
-        size = PIN * unit * picture.stroke
-        marks += [
-            Mark(x, y, Shape.SPHERE, RIM * size, picture.background, 0.75),
-            Mark(x, y, pin.shape, size, pin.colour),
-        ]
-        if pin.to is not None:
-            lines.append(Stroke(x, y, x1, y1, pin.colour, TIE * unit * picture.stroke))
-    return [*lines, *marks]
 
 
 def _framed(pane: Pane, area: Area, picture: Picture, height: float) -> list[Primitive]:
