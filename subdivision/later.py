@@ -2,12 +2,14 @@
 
 Every half-edge of the mesh before has left its mark: in a quad of its own, or in a triangle of
 its own and one in the middle of its face.  So all is told by the arrays of the mesh before, a
-quarter as long; inside its faces nothing needs to be looked up, and along its edges little.
-The work is done in runs of half-edges so short that what they make stays in the cache.
+quarter as long: every half-edge adds what is on its side to the points along its edge, and
+makes those inside its face alone.  The work is done in runs of faces so short that what they
+make stays in the cache.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse import _sparsetools
@@ -35,21 +37,34 @@ class Faces:
     def of(cls, sizes: Indices) -> "Faces":
         """Faces of these ``sizes``, one after the other."""
         end = np.cumsum(sizes)
-        start, n = end - sizes, len(sizes)
+        start = end - sizes
         after, before = np.arange(1, end[-1] + 1), np.arange(-1, end[-1] - 1)
         after[end - 1], before[start] = start, end - 1
-        return cls(after, before, np.repeat(np.arange(n), sizes), np.append(start, end[-1]).astype(np.int32))
+        return cls(after, before, np.repeat(np.arange(len(sizes)), sizes), np.append(start, end[-1]).astype(np.int32))
 
-    def sums(self, of_halfedges: Floats, out: Floats) -> None:
-        """Add up what the half-edges of each face have."""
-        (H, d), ones, places = of_halfedges.shape, np.ones(len(self.next)), np.arange(len(self.next), dtype=np.int32)
-        out.fill(0)
-        _sparsetools.csr_matvecs(len(out), H, d, self.start, places, ones, of_halfedges.reshape(-1), out.reshape(-1))
+    @cached_property
+    def places(self) -> Small:
+        """All half-edges, in their order."""
+        return np.arange(len(self.next), dtype=np.int32)
+
+    def sum(self, of_halfedges: Floats, out: Floats) -> None:
+        """Add what the half-edges of each face have."""
+        (n, d), ones = of_halfedges.shape, np.ones(len(self.places))
+        _sparsetools.csr_matvecs(
+            len(out), n, d, self.start, self.places, ones, of_halfedges.reshape(-1), out.reshape(-1)
+        )
+
+    def add(self, weight: float, of_halfedges: Floats, at: Small, out: Floats) -> None:
+        """Add ``weight`` times what each half-edge has to ``out`` ``at`` it."""
+        n, d = of_halfedges.shape
+        _sparsetools.coo_matmat_dense(
+            n, d, at, self.places, np.full(n, weight), of_halfedges.reshape(-1), out.reshape(-1)
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """Some of the faces of a mesh, and their half-edges."""
+    """Some faces of a mesh, their half-edges, and how these hang together."""
 
     faces: slice
     halfedges: slice
@@ -64,11 +79,8 @@ class Later:
     ----------
     runs : (Run, ...)
         The faces of ``before``.
-    half, beyond : (2 n_edges,) int
-        The half-edges of ``before`` that leave either end of each edge, as the edge is cut; and the next ones after
-        their twins, which leave the same vertices on the other side.
-    end, wing : (2 n_edges,) int
-        Where those begin; in quads their faces, in triangles the edges before them in their faces.
+    origin, edge, half : (n_halfedges,) int
+        The vertex, the edge, and the half of the edge, that each half-edge of ``before`` begins with.
     own, corner : (n_vertices,) float
         How much a vertex of ``before`` holds of itself now, and of what each of its corners brings.
     sharp : SharpRows or None
@@ -79,10 +91,9 @@ class Later:
     coarse: Topology
     rule: Rule
     runs: tuple[Run, ...]
-    half: Indices
-    beyond: Indices
-    end: Indices
-    wing: Indices
+    origin: Small
+    edge: Small
+    half: Small
     own: Floats
     corner: Floats
     sharp: SharpRows | None
@@ -111,18 +122,13 @@ class Later:
 
 def later(before: Topology, coarse: Topology, rule: Rule) -> Later:
     """One step on ``coarse``, which a step has made of ``before``."""
-    half = np.zeros(2 * before.n_edges, dtype=np.intp)
-    half[refine.half_edges(before)] = np.arange(before.n_halfedges)
-    beyond = taken(taken(before.next, before.twin), half)
-    end = taken(before.origin, half)
-    if rule.size == 4:
-        wing = taken(before.face, half)
-    else:
-        wing, beyond = taken(refine.before(before, before.edge), half), taken(before.edge, beyond)
-    counts = np.bincount(before.origin, minlength=before.n_vertices)
+    origin, edge, half = (
+        x.astype(np.int32, copy=False) for x in (before.origin, before.edge, refine.half_edges(before))
+    )
+    counts = np.bincount(origin, minlength=before.n_vertices)
     corner = rule.corners(counts)
     own = 1 - rule.brought * corner * counts
-    return Later(before, coarse, rule, tuple(_runs(before)), half, beyond, end, wing, own, corner, sharp_rows(coarse))
+    return Later(before, coarse, rule, tuple(_runs(before)), origin, edge, half, own, corner, sharp_rows(coarse))
 
 
 def _runs(t: Topology) -> Iterator[Run]:
@@ -138,88 +144,64 @@ def _runs(t: Topology) -> Iterator[Run]:
 
 
 def _quads(step: Later, points: Floats, made: Floats) -> None:
-    t = step.before
+    t, each = step.before, step.rule.each(4)
     V, F, E, H = t.n_vertices, t.n_faces, t.n_edges, t.n_halfedges
     v, f, e = np.split(points, [V, V + F])
     v_made, f_made, e_made, centres, outer, inner = np.split(made, np.cumsum([V, F, E, H, 2 * E]))
+    np.multiply(e, 1 - 8 * each, out=e_made)
+    f_made.fill(0)
+    outer.fill(0)
     for run in step.runs:
-        around, middle, inside = taken(e, t.edge[run.halfedges]), taken(f[run.faces], run.inside.face), run.inside
-        centre, across = centres[run.halfedges], inner[run.halfedges]
-        np.take(v, t.origin[run.halfedges], axis=0, out=centre, mode="clip")
-        centre += taken(around, inside.prev)
-        middle += around
-        centre += middle
+        origin, edge, half = (x[run.halfedges] for x in (step.origin, step.edge, step.half))
+        inside, centre, across = run.inside, centres[run.halfedges], inner[run.halfedges]
+        corner, along, middle = taken(v, origin), taken(e, edge), taken(f[run.faces], inside.face)
+        np.add(corner, along, out=across)
+        np.add(across, middle, out=centre)
+        centre += taken(along, inside.prev)
         centre *= 1 / 4
-        np.add(middle, centre, out=across)
-        across += taken(centre, inside.next)
+        across += centre
+        inside.add(1 / 4, across, half, outer)
+
+        ahead = taken(centre, inside.next)
+        inside.add(1 / 4, ahead, half ^ 1, outer)
+        ahead += centre
+        ahead += middle
+        np.add(ahead, along, out=across)
         across *= 1 / 4
-        around += centre
-        inside.sums(around, f_made[run.faces])
-        _bring(t.origin[run.halfedges], around, v_made)
+        ahead += corner
+        inside.add(each, ahead, edge, e_made)
+        along += centre
+        inside.add(1, along, origin, v_made)
+        inside.sum(along, f_made[run.faces])
     weight = step.rule.corners(t.face_sizes)
     f_made *= weight[:, None]
     f_made += (1 - 2 * weight * t.face_sizes)[:, None] * f
 
-    each = step.rule.each(4)
-    for edges, halves in _edges(E):
-        sums = taken(centres, step.half[halves])
-        sums += taken(centres, step.beyond[halves])
-        sums += taken(v, step.end[halves])
-        some = taken(e[edges], np.arange(len(sums)) // 2)
-        np.add(sums, some, out=outer[halves])
-        sums += taken(f, step.wing[halves])
-        _between(sums, e[edges], each, 1 - 8 * each, e_made[edges])
-    outer *= 1 / 4
-
 
 def _triangles(step: Later, points: Floats, made: Floats) -> None:
-    t = step.before
+    t, each = step.before, step.rule.each(6)
     V, E = t.n_vertices, t.n_edges
     v, e = points[:V], points[V:]
     v_made, e_made, outer, inner = np.split(made, np.cumsum([V, E, 2 * E]))
+    np.multiply(e, 1 - 6 * each, out=e_made)
+    outer.fill(0)
     for run in step.runs:
-        around, inside, across = taken(e, t.edge[run.halfedges]), run.inside, inner[run.halfedges]
-        np.take(v, t.origin[run.halfedges], axis=0, out=across, mode="clip")
-        across += taken(around, inside.next)
-        ends = taken(around, inside.prev)
-        ends += around
-        ends *= 3
-        across += ends
+        origin, edge, half = (x[run.halfedges] for x in (step.origin, step.edge, step.half))
+        inside, across = run.inside, inner[run.halfedges]
+        corner, along = taken(v, origin), taken(e, edge)
+        behind, ahead = taken(along, inside.prev), taken(along, inside.next)
+        inside.add(1, along, origin, v_made)
+        inside.add(1 / 8, ahead, half ^ 1, outer)
+        np.add(along, behind, out=across)
+        across *= 3
+        across += corner
+        across += ahead
         across *= 1 / 8
-        _bring(t.origin[run.halfedges], around, v_made)
 
-    each = step.rule.each(6)
-    for edges, halves in _edges(E):
-        ends, wings = taken(v, step.end[halves]), taken(e, step.wing[halves])
-        wings += taken(e, step.beyond[halves])
-        half = outer[halves]
-        np.add(ends, taken(e[edges], np.arange(len(ends)) // 2), out=half)
-        half *= 3
-        half += wings
-        half *= 1 / 8
-        ends += wings
-        _between(ends, e[edges], each, 1 - 6 * each, e_made[edges])
-
-
-def _edges(n: int) -> Iterator[tuple[slice, slice]]:
-    """Runs of edges, and of their halves."""
-    for begin in range(0, n, AT_ONCE // 2):
-        end = min(begin + AT_ONCE // 2, n)
-        yield slice(begin, end), slice(2 * begin, 2 * end)
-
-
-def _between(halves: Floats, own: Floats, each: float, keep: float, out: Floats) -> None:
-    """What the vertex in the middle of an edge holds of what its ``halves`` have, and of its ``own`` place."""
-    first = np.arange(0, len(halves), 2)
-    np.take(halves, first, axis=0, out=out, mode="clip")
-    out += taken(halves, first + 1)
-    out *= each
-    out += keep * own
-
-
-def _bring(at: Indices, brought: Floats, out: Floats) -> None:
-    """Add to each vertex what the half-edges that leave it have ``brought``."""
-    n, d = brought.shape
-    places, ones = np.arange(n, dtype=np.int32), np.ones(n)
-    at = at.astype(np.int32, copy=False)
-    _sparsetools.coo_matmat_dense(n, d, at, places, ones, brought.reshape(-1), out.reshape(-1))
+        ahead += behind
+        ahead += corner
+        inside.add(each, ahead, edge, e_made)
+        corner += along
+        corner *= 3
+        corner += behind
+        inside.add(1 / 8, corner, half, outer)
