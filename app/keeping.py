@@ -158,7 +158,7 @@ def _parameter(value: Value) -> Any:
 def _object(control: Mesh) -> Table:
     """A shape of the house by its name; else all its numbers."""
     for name in shapes.SHAPES:
-        if _is_same(_shape(name), control):
+        if is_same(_shape(name), control):
             return {"shape": name}
     t, points = control.topology, control.points
     if len(points) > MOST_POINTS or len(t.origin) > MOST_CORNERS:
@@ -202,7 +202,8 @@ def _shape(name: str) -> Mesh:
     return shapes.SHAPES[name]()
 
 
-def _is_same(one: Mesh, other: Mesh) -> bool:
+def is_same(one: Mesh, other: Mesh) -> bool:
+    """Whether two control objects are the same in every number."""
     a, b = one.topology, other.topology
     if type(a) is not type(b) or not np.array_equal(one.points, other.points):
         return False

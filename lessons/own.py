@@ -72,8 +72,8 @@ def require_within(path: Path) -> None:
         raise LessonError(Fault(path.name, 0, "", what, "put the file itself there"))
 
 
-def load(path: Path, taken: Collection[str] = ()) -> tuple[Lesson, ...]:
-    """Run a file, and the lessons it makes; ``taken`` are ids it may not use.
+def load(path: Path, taken: Collection[str] = (), source: bytes | None = None) -> tuple[Lesson, ...]:
+    """Run a file, and the lessons it makes; ``taken`` are ids it may not use, ``source`` is what it would say.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def load(path: Path, taken: Collection[str] = ()) -> tuple[Lesson, ...]:
     """
     require_within(path)
     try:
-        source = path.read_bytes()
+        source = path.read_bytes() if source is None else source
     except OSError as error:
         what = phrase("it cannot be read ({reason})", reason=error.strerror or str(error))
         raise LessonError(Fault(path.name, 0, "", what, "see who may read it")) from error
