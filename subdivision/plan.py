@@ -57,7 +57,7 @@ class Plan:
         Who applies a plan again and again saves the time to find new memory.
         """
         if self.whole is not None:
-            return np.matmul(self.whole, points, out=out)
+            return self.whole.dot(points, out)
         points = np.ascontiguousarray(points, dtype=float)
         for step in self.steps[:-1]:
             points = step.apply(points)

@@ -95,9 +95,14 @@ class Kind:
         return all(fan.closed and not fan.sharpness and not fan.pinned for fan in self.fans)
 
     @property
+    def shape(self) -> "Shape":
+        """What the ring depends on; sharpness makes no difference."""
+        return tuple((fan.left, fan.right, fan.closed) for fan in self.fans)
+
+    @property
     def ring(self) -> Ring:
-        """What is round a face of this kind; sharpness makes no difference."""
-        return ring(tuple((fan.left, fan.right, fan.closed) for fan in self.fans))
+        """What is round a face of this kind."""
+        return ring(self.shape)
 
     @property
     def creases(self) -> dict[tuple[int, int], float]:
@@ -188,14 +193,14 @@ class Sorted:
 
     def rings(self, t: Topology) -> list[Indices]:
         """What is round the faces of each kind; kinds whose rings are alike are walked together."""
-        alike: dict[Ring, list[int]] = {}
+        alike: dict[Shape, list[int]] = {}
         for i, kind in enumerate(self.kinds):
-            alike.setdefault(kind.ring, []).append(i)
+            alike.setdefault(kind.shape, []).append(i)
         faces = np.split(self.faces, self.start[1:-1])
         found = dict[int, Indices]()
-        for ring, some in alike.items():
+        for shape, some in alike.items():
             ends = np.cumsum([len(faces[i]) for i in some])
-            together = ring.around(t, np.concatenate([faces[i] for i in some]))
+            together = ring(shape).around(t, np.concatenate([faces[i] for i in some]))
             found |= zip(some, np.split(together, ends[:-1], axis=1), strict=True)
         return [found[i] for i in range(len(self.kinds))]
 

@@ -15,7 +15,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from subdivision import refine
-from subdivision.arrays import Floats, Indices, taken
+from subdivision.arrays import Floats, Indices, frozen, short, taken
 from subdivision.kernels import Rule, kernel
 from subdivision.rings import Kind, sorted_faces, unfolded, with_ring
 from subdivision.topology import Topology
@@ -86,6 +86,7 @@ def template(k: int, depth: int) -> Template:
     return Template(k, depth, corners, np.unique(corners, return_index=True)[1])
 
 
+@lru_cache(maxsize=64)
 def descendants(k: int, n_faces: int, depth: int) -> tuple[Indices, Indices]:
     """Face ``f`` of ``n_faces`` has, ``depth`` splits on, the small faces ``first + each * f``: ``first``, ``each``."""
     first, each = np.zeros(1, dtype=np.intp), np.ones(1, dtype=np.intp)
@@ -96,7 +97,20 @@ def descendants(k: int, n_faces: int, depth: int) -> tuple[Indices, Indices]:
             outer = (3 * first[:, None] + np.arange(3)).ravel(), np.repeat(3 * each, 3)
             first, each = np.concatenate([outer[0], 3 * n_faces + first]), np.concatenate([outer[1], each])
         n_faces *= 4
-    return first, each
+    return frozen(first), frozen(each)
+
+
+@lru_cache(maxsize=64)
+def _blocks(k: int, n_faces: int, depth: int) -> tuple[tuple[slice, Indices], ...]:
+    """Which small faces follow each other, and which of every split face they are."""
+    first, each = descendants(k, n_faces, depth)
+    order = np.argsort(first)
+    blocks, done = list[tuple[slice, Indices]](), 0
+    while done < len(order):
+        begin, count = int(first[order[done]]), int(each[order[done]])
+        blocks.append((slice(begin, begin + count * n_faces), order[done : done + count]))
+        done += count
+    return tuple(blocks)
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,21 +193,16 @@ class Tables:
         """(n_halfedges,) int: the vertex each fine half-edge leaves."""
         F = self.coarse.n_faces
         k = self.coarse.n_halfedges // F
-        split = template(k, self.depth)
-        numbers = np.empty((F, len(split.first)), dtype=np.intp)
+        split, number = template(k, self.depth), short(self.n_points)
+        begin, step = self.begin.astype(number), self.step.astype(number)
+        numbers = np.empty((F, len(split.first)), dtype=number)
         numbers[:, :k] = self.coarse.origin.reshape(F, k)
         sides = numbers[:, k : split.begins_inside].reshape(F, k, -1)
-        _counted(self.begin[F:].reshape(F, k), self.step[F:].reshape(F, k), sides)
-        _counted(self.begin[:F], self.step[:F], numbers[:, split.begins_inside :])
-        first, each = descendants(k, F, self.depth)
-        order = np.argsort(first)
-        origin = np.empty((F * len(first), k), dtype=np.intp)
-        done = 0
-        while done < len(order):
-            begin, count = first[order[done]], each[order[done]]
-            block = origin[begin : begin + count * F].reshape(F, -1)
-            np.take(numbers, split.corners[order[done : done + count]].ravel(), axis=1, out=block, mode="clip")
-            done += count
+        _counted(begin[F:].reshape(F, k), step[F:].reshape(F, k), sides)
+        _counted(begin[:F], step[:F], numbers[:, split.begins_inside :])
+        origin = np.empty((F * len(split.corners), k), dtype=number)
+        for small, some in _blocks(k, F, self.depth):
+            np.take(numbers, split.corners[some].ravel(), axis=1, out=origin[small].reshape(F, -1), mode="clip")
         return origin.reshape(-1)
 
 
@@ -290,5 +299,5 @@ def _computed(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
 
 def _counted(begin: Indices, step: Indices, out: Indices) -> None:
     """Count from ``begin`` by ``step`` along the last axis of ``out``."""
-    np.multiply(step[..., None], np.arange(out.shape[-1]), out=out)
+    np.multiply(step[..., None], np.arange(out.shape[-1], dtype=out.dtype), out=out)
     out += begin[..., None]
