@@ -124,7 +124,7 @@ def test_an_answer_is_chosen_by_its_key_or_its_box_and_stays_beside_the_true_one
     pane = cube.viewport.picture().panes[-1].content
     assert isinstance(pane, Diagram)
     assert [note.text for note in pane.notes][-2:] == ["predicted", "true"]
-    assert pane.boxes[3].texts == ("9/16",)
+    assert pane.boxes[2].texts == ("9/16",)
     press(cube, Key.Key_1)
     assert cube.session.state.options.across == "stage"
 

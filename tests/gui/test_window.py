@@ -79,7 +79,6 @@ def test_every_key_of_the_table_reaches_its_command_wherever_the_focus_is(window
         action = window.actions_by_id[command.id]
         action.triggered.disconnect()
         action.triggered.connect(lambda _=False, id_=command.id: reached.append(id_))
-        action.setEnabled(True)
     wanted = []
     for command in COMMANDS:
         for key in command.keys:
@@ -87,6 +86,8 @@ def test_every_key_of_the_table_reaches_its_command_wherever_the_focus_is(window
                 continue  # a list keeps these
             focus(window, where)
             chord = QKeySequence(key)[0]
+            for other in COMMANDS:  # a key may do one thing at one time and another at another
+                window.actions_by_id[other.id].setEnabled(other is command or key not in other.keys)
             press(window, chord.key(), chord.keyboardModifiers())
             wanted.append(command.id)
     assert reached == wanted
