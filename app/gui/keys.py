@@ -30,7 +30,7 @@ from app.state import (
     turn_knob,
     turn_level,
 )
-from app.words import LANGUAGES, SYSTEM
+from app.words import LANGUAGES, SYSTEM, tr
 from lessons.questions import MOST as MOST_ANSWERS
 from subdivision.words import phrase
 
@@ -148,6 +148,7 @@ COMMANDS = (
     Command("take_back", "Take the last prediction back", "Lesson", ("Backspace",), _wish(take_back),
             when=lambda state: is_open(state) and bool(state.predicted)),
     Command("search", "Find a lesson", "Lesson", ("Ctrl+K",), lambda w: w.find_lesson(), icon="search"),
+    Command("record", "Record this view as a step…", "Lesson", ("Ctrl+R",), lambda w: w.recorder.choose()),
     Command("new_lesson", "New lesson…", "Lesson", (), lambda w: w.authoring.new_lesson()),
     Command("show_folder", "Show lessons folder", "Lesson", (), lambda w: w.authoring.show_folder()),
     Command("present", "Full screen", "Present", ("F5", "Shift+F5", "F11"), lambda w: w.toggle_presenting(),
@@ -166,9 +167,9 @@ COMMANDS = (
     Command("shown", "Details panel", "View", ("F10",), lambda w: w.toggle_panel("details"), icon="shown"),
     Command("reduced_motion", "Reduced motion", "View", ("Ctrl+M",), lambda w: w.toggle_reduced_motion(),
             lambda o: o.reduced_motion),
-    Command("larger", "Larger", "View", ("Ctrl++", "Ctrl+="), lambda w: w.turn_scale(1), repeats=True),
-    Command("smaller", "Smaller", "View", ("Ctrl+-",), lambda w: w.turn_scale(-1), repeats=True),
-    Command("usual_size", "As large as usual", "View", ("Ctrl+0",), lambda w: w.choose_scale(1.0)),
+    Command("larger", "Everything larger", "View", ("Ctrl++", "Ctrl+="), lambda w: w.turn_scale(1), repeats=True),
+    Command("smaller", "Everything smaller", "View", ("Ctrl+-",), lambda w: w.turn_scale(-1), repeats=True),
+    Command("usual_size", "Everything as large as usual", "View", ("Ctrl+0",), lambda w: w.choose_scale(1.0)),
     Command("camera", "Reset the view", "View", ("R",), lambda w: w.viewport.reset_camera()),
     Command("open", "Open…", "File", ("Ctrl+O",), lambda w: w.choose_file()),
     Command("lessons_folder", "Lessons folder…", "File", (), lambda w: w.authoring.choose_folder()),
@@ -203,16 +204,24 @@ MOUSE = (
     ("Why is a point here?", "point at it; click to keep it"),
     ("Move a control point", "drag it; hold X, Y or Z: along an axis"),
     ("Put it back", "double click it"),
-    ("Predict", "at a question: click the place, the weight or the picture"),
-    ("Pick a point, edge or face to edit", "click it in the laboratory; Shift + click: more"),
+    ("Predict", "click a place, a weight or a picture"),
+    ("Pick a part to edit", "click it in the laboratory; Shift + click: more"),
 )
 """What the mouse does, for the sheet of keys."""
 
 
+PRINTED = {
+    "PgDown": "Page Down", "PgUp": "Page Up", "Left": "←", "Right": "→", "Up": "↑", "Down": "↓", "-": "−",
+    "Ctrl": phrase("Ctrl"), "Shift": phrase("Shift"), "Alt": phrase("Alt"), "Space": phrase("Space"),
+    "Home": phrase("Home"), "End": phrase("End"), "Esc": phrase("Esc"), "Backspace": phrase("Backspace"),
+    "Ins": phrase("Ins"), "Del": phrase("Del"),
+}  # fmt: skip
+"""What is printed on the keys, where it is not what Qt calls them."""
+
+
 def spelled_keys(command: Command) -> tuple[str, ...]:
     """The keys as they are printed on keyboards."""
-    names = {"PgDown": "Page Down", "PgUp": "Page Up", "Left": "←", "Right": "→", "Up": "↑", "Down": "↓", "-": "−"}
-    return tuple("+".join(names.get(part, part) for part in _parts(key)) for key in command.keys)
+    return tuple("+".join(tr(PRINTED.get(part, part)) for part in _parts(key)) for key in command.keys)
 
 
 def _parts(key: str) -> list[str]:

@@ -3,7 +3,17 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetricsF,
+    QHelpEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QToolTip, QWidget
 
 from app.asking import is_open
@@ -12,9 +22,18 @@ from app.draw.theme import THEMES, Theme, mixed
 from app.gui.look import GRID, colour, fine, icon, px, type_face
 from app.gui.session import Session
 from app.state import Segment, State, axis_of, choose, seek, segments
+from app.words import tr
+from subdivision.words import phrase
 
 HEIGHT = 7 * GRID
 """Pixels at 100 %."""
+
+PLAYING = ("first", "back", "play", "forward", "last")
+LEVELS = ("level_down", "level_up", "through")
+"""The buttons left and right of the track."""
+
+NARROW = 480
+"""Below this width the track takes the place of some buttons; pixels at 100 %."""
 
 SNAP = 6.0
 """Pixels at 100 %: so near to a stage's end, scrubbing is at it."""
@@ -34,24 +53,32 @@ class Timeline(QWidget):
     def __init__(self, session: Session, button: Make) -> None:
         super().__init__()
         self.setFixedHeight(px(HEIGHT))
+        self.setMinimumWidth(px(NARROW / 2))
         self._track = Track(session)
         row = QHBoxLayout(self)
         row.setContentsMargins(px(GRID), 0, px(GRID), 0)
         row.setSpacing(0)
-        for name in ("first", "back", "play", "forward", "last"):
-            row.addWidget(button(name))
+        self._buttons = {name: button(name) for name in (*PLAYING, *LEVELS)}
+        for name in PLAYING:
+            row.addWidget(self._buttons[name])
         row.addSpacing(px(GRID))
         row.addWidget(self._track, 1)
         row.addSpacing(px(GRID))
-        for name in ("level_down", "level_up", "through"):
-            row.addWidget(button(name))
+        for name in LEVELS:
+            row.addWidget(self._buttons[name])
         self._speed = QToolButton()
-        self._speed.setToolTip("Speed: slower −, faster +")
-        self._speed.setAccessibleName("Speed")
+        self._speed.setToolTip(tr("Speed: slower −, faster +"))
+        self._speed.setAccessibleName(tr("Speed"))
         self._speed.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self._speed.setMinimumSize(QSize(px(48), px(32)))
         self._speed.clicked.connect(lambda: session.do(choose, speed=next_speed(session.state.options.speed)))
         row.addWidget(self._speed)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Where there is little room, the track has it before the buttons that keys and the track do as well."""
+        super().resizeEvent(event)
+        for name in ("first", "last", *LEVELS):
+            self._buttons[name].setVisible(self.width() >= fine(NARROW))
 
     def show_state(self, state: State) -> None:
         self._speed.setText(spoken_speed(state.options.speed))
@@ -67,12 +94,14 @@ class Track(QWidget):
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName("Timeline")
+        self.setAccessibleName(tr("Timeline"))
         self._is_held = False
 
     def show_state(self, state: State) -> None:
         here = current(state)
-        self.setAccessibleDescription(f"level {here.level}, {here.name or ('question' if is_open(state) else 'still')}: {said(state, state.now)}")
+        stage, caption = here.name or phrase("question" if is_open(state) else "still"), said(state, state.now)
+        words = phrase("level {level}, {stage}: {caption}", level=here.level, stage=stage, caption=caption)
+        self.setAccessibleDescription(tr(words))
         self.update()
 
     # -- place and time -------------------------------------------------------------------------
@@ -110,7 +139,7 @@ class Track(QWidget):
             found = self._segment_at(event.position().x() if hasattr(event, "position") else event.pos().x())
             state = self._session.state
             words = said(state, state.lesson.beats[found.beat])
-            QToolTip.showText(event.globalPos(), f"{found.name}: {words}" if found.name else words, self)
+            QToolTip.showText(event.globalPos(), f"{tr(found.name)}: {words}" if found.name else words, self)
             return True
         return super().event(event)
 
@@ -168,7 +197,8 @@ class Track(QWidget):
         x = min(max((left + right - wide) / 2, 0.0), self.width() - wide)
         painter.setFont(face)
         painter.setPen(ink)
-        painter.drawText(QRectF(x, self.height() / 2 - fine(24), wide, fine(16)), Qt.AlignmentFlag.AlignCenter, s.name)
+        where = QRectF(x, self.height() / 2 - fine(24), wide, fine(16))
+        painter.drawText(where, Qt.AlignmentFlag.AlignCenter, tr(s.name))
 
     def _has_room(self, face: QFont) -> bool:
         parts, wide = segments(self._session.state.lesson), QFontMetricsF(face).horizontalAdvance

@@ -101,7 +101,6 @@ class Window(QMainWindow):
         self.worker = Worker(session, self.banner)
         self._build()
         self._put_up()
-        self._widen()
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
         self.opener = Opener(session, self.banner, self.opened)
         self.authoring = Authoring(self, Path(settings.fileName()).with_name("lessons.json"))
@@ -157,15 +156,17 @@ class Window(QMainWindow):
             hairline.setFixedHeight(px(1))
 
     def _note_widths(self) -> None:
-        """How wide the panels are, those that are shown."""
+        """How wide the hand has made the panels."""
         for (name, side), wide in zip(self._sides.items(), self._splitter.sizes()[::2], strict=True):
-            if not side.isHidden():
+            if side.isVisible():
                 self._wide[name] = wide / self._scale
 
     def _widen(self) -> None:
         """Each panel as wide as it was, at the scale of the window."""
         self._splitter.setHandleWidth(px(1))
-        self._splitter.setSizes([px(self._wide["contents"]), 10_000, px(self._wide["details"])])
+        left, right = (px(self._wide[name]) for name in self._sides)
+        taken = sum(px(self._wide[name]) for name, side in self._sides.items() if not side.isHidden())
+        self._splitter.setSizes([left, max(self._splitter.width() - taken, 1), right])
 
     # -- commands -------------------------------------------------------------------------------
 
@@ -213,6 +214,7 @@ class Window(QMainWindow):
         side = self._sides[name]
         side.setVisible(side.isHidden())
         self._wants[name] = not side.isHidden()
+        self._widen()
 
     def find_lesson(self) -> None:
         self._sides["contents"].show()
@@ -438,13 +440,13 @@ class Window(QMainWindow):
         for part in (QWidget(), middle, QWidget()):
             self._splitter.addWidget(part)
         self._splitter.setStretchFactor(1, 1)
-        self._splitter.setCollapsible(1, False)
+        self._splitter.setChildrenCollapsible(False)
+        self._splitter.splitterMoved.connect(self._note_widths)
         self._body = column(self._hairline(), self._splitter, stretched=self._splitter)
         self.setCentralWidget(self._body)
 
     def furnish(self) -> None:
         """Change the furniture for new, for other words or another size; everything else is as it was."""
-        self._note_widths()
         self._scale = self.session.state.options.scale
         rescale(self._scale)
         places = self._places()
@@ -465,7 +467,6 @@ class Window(QMainWindow):
         for sheet in self.sheets:
             sheet.update()
         self._make_room()
-        self._widen()
         self._middle.setEnabled(True)
         self._middle.activate()
         sit_down(self._places(), seat)
@@ -545,7 +546,6 @@ class Window(QMainWindow):
         """Nothing but the picture, on the whole screen; or everything as it was."""
         self._is_presenting = is_on
         if is_on:
-            self._note_widths()
             self._before = (self.windowState(), [side.isHidden() for side in self._sides.values()])
         was, hidden = self._before
         for side, was_hidden in zip(self._sides.values(), hidden, strict=True):
@@ -572,9 +572,9 @@ class Window(QMainWindow):
         if geometry is None or not self.restoreGeometry(geometry):
             room = QGuiApplication.primaryScreen().availableSize()
             self.resize(QSize(1440, 900).boundedTo(room))
-        if (sizes := self.settings.value("panels")) is not None:
-            self._splitter.restoreState(sizes)
         for name, side in self._sides.items():
+            kept = str(self.settings.value(f"{name}_width"))
+            self._wide[name] = float(kept) if kept.isdecimal() else WIDE[name]
             side.setHidden(self.settings.value(name, "shown") == "hidden")
             self._wants[name] = not side.isHidden()
         self.details.restore(self.settings)
@@ -587,12 +587,14 @@ class Window(QMainWindow):
             if (has_room := self.width() >= fine(ROOMY[name])) != self._has_room[name]:
                 side.setVisible(self._wants[name] and has_room)
                 self._has_room[name] = has_room
+        self._widen()
 
     def _keep(self) -> None:
         if self._is_presenting:
             return
         self.settings.setValue("geometry", self.saveGeometry())
-        self.settings.setValue("panels", self._splitter.saveState())
+        for name, wide in self._wide.items():
+            self.settings.setValue(f"{name}_width", round(wide))
         for name, is_wanted in self._wants.items():
             self.settings.setValue(name, "shown" if is_wanted else "hidden")
         self.details.keep(self.settings)

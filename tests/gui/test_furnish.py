@@ -42,7 +42,8 @@ def test_nothing_is_lost(qtbot, window):
     session.do(bench.take, "cube")
     session.do(toggle, "labels")
     window.details.findChildren(Head)[1].setChecked(False)
-    window._splitter.setSizes([260, 700, 300])
+    window._splitter.setSizes([260, 720, 300])
+    window._splitter.splitterMoved.emit(260, 1)  # as the hand does
     window.contents.search.setText("cube")
     window.contents.search.setFocus()
     window.banner.offer("Here is an offer.", "Take it", lambda: session.do(toggle, "valences"))
