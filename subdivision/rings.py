@@ -7,11 +7,11 @@ can be unfolded into a small mesh of its own, and found again round every face o
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, Mask, taken
+from subdivision.arrays import Floats, Indices, Mask, distinct, taken
 from subdivision.sharp_rows import creases
 from subdivision.topology import Topology
 
@@ -94,12 +94,12 @@ class Kind:
         """Whether nothing is sharp, so that only the numbers of faces matter."""
         return all(fan.closed and not fan.sharpness and not fan.pinned for fan in self.fans)
 
-    @property
+    @cached_property
     def shape(self) -> "Shape":
         """What the ring depends on; sharpness makes no difference."""
         return tuple((fan.left, fan.right, fan.closed) for fan in self.fans)
 
-    @property
+    @cached_property
     def ring(self) -> Ring:
         """What is round a face of this kind."""
         return ring(self.shape)
@@ -293,9 +293,10 @@ def _fans(t: Topology, counts: Indices) -> tuple[Indices, list[Fan]]:
         special = np.zeros(t.n_vertices, dtype=bool)
         special[creases(t).vertices] = True
         at = np.flatnonzero(special[t.origin])
-        seen, which = np.unique(_features(t, at, int(counts.max())), axis=0, return_inverse=True)
-        code[at] = len(fans) + which.ravel()
-        fans += map(_fan, seen)
+        features = _features(t, at, int(counts.max()))
+        first, which = distinct(features)
+        code[at] = len(fans) + which
+        fans += map(_fan, features[first])
     return code, fans
 
 

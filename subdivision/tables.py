@@ -268,14 +268,17 @@ def _tables(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
 
     What is smooth is remembered for other meshes; there is not much of it.
     """
-    known = {kind: _remembered[kind, depth, rule] for kind in kinds if (kind, depth, rule) in _remembered}
-    missing = tuple(kind for kind in dict.fromkeys(kinds) if kind not in known)
+    made = [_remembered.get((kind, depth, rule)) if kind.is_smooth else None for kind in kinds]
+    missing = [i for i, table in enumerate(made) if table is None]
     if missing:
-        known |= zip(missing, _computed(missing, depth, rule), strict=True)
         if len(_remembered) > REMEMBERED_AT_MOST:
             _remembered.clear()
-        _remembered.update({(kind, depth, rule): known[kind] for kind in missing if kind.is_smooth})
-    return [known[kind] for kind in kinds]
+        some = tuple(kinds[i] for i in missing)
+        for i, kind, table in zip(missing, some, _computed(some, depth, rule), strict=True):
+            made[i] = table
+            if kind.is_smooth:
+                _remembered[kind, depth, rule] = table
+    return [table for table in made if table is not None]
 
 
 def _computed(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
