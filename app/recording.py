@@ -8,7 +8,7 @@ where its picture is another one, what differs is said.
 import ast
 import re
 import tokenize
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -57,6 +57,7 @@ class Recorded:
     """A lesson's file with one more step: its new ``text``, the ``meshes`` beside it, and what ``differs``."""
 
     path: Path
+    before: str
     text: str
     meshes: tuple[tuple[str, Mesh], ...]
     differs: str = ""
@@ -66,26 +67,50 @@ class Recorded:
 
         Raises
         ------
+        RecordingError
+            If the file has changed since, or cannot be written.
         OSError, FileError
         """
+        if _text_of(self.path) != self.before:
+            raise RecordingError(phrase("{file} has changed meanwhile; record once more", file=self.path.name))
         for name, mesh in self.meshes:
             files.write(self.path.with_name(name), mesh)
         save(self.path, [self.text.encode()])
 
 
-def recorded(state: State, path: Path, title: str, id_: str) -> Recorded:
-    """A view added to the lesson in a file, or to a new lesson if there is none yet.
+def recorded(state: State, path: Path, title: str, id_: str, taken: Collection[str] = ()) -> Recorded:
+    """A view added to the lesson in a file, or to a new lesson if there is none yet; ``taken`` are ids it may not use.
 
     Raises
     ------
     RecordingError
         If it cannot be recorded, or the file not be added to.
     """
-    old = path.read_text(encoding="utf-8") if path.exists() else HEAD.format(title=title, id=id_)
+    before = _text_of(path)
+    old = before or HEAD.format(title=title, id=id_)
     lines = _Lines(state, old, _free_stem(path))
-    text = _added(old, lines, path.name)
-    found = Recorded(path, text, lines.meshes)
-    return replace(found, differs=_differs(state, found) or lines.left_out)
+    found = Recorded(path, before, _added(old, lines, path.name), lines.meshes)
+    what = _difference(state, found, taken)
+    return replace(found, differs=CALLED.get(what, ELSE) if what else lines.left_out)
+
+
+def _text_of(path: Path) -> str:
+    """What a file says; nothing where there is none."""
+    try:
+        return path.read_text(encoding="utf-8") if path.exists() else ""
+    except (OSError, UnicodeDecodeError) as error:
+        raise RecordingError(phrase("{file} cannot be read; choose another file", file=path.name)) from error
+
+
+CALLED = {
+    **dict.fromkeys(("camera", "position", "focal", "up", "scale", "aspect"), "from where it is seen"),
+    **dict.fromkeys(("labels", "text"), "the weights at the points"),
+    **dict.fromkeys(("legend", "colour"), "the colours"),
+    "reading": "what is measured below a pane",
+}
+"""Parts of a picture as users know them."""
+
+ELSE = "a part of the picture"
 
 
 # -- the lines --------------------------------------------------------------------------------
@@ -260,7 +285,7 @@ def _row(name: str, trace: Trace, stage: int, span: int, point: int, names: set[
 def _string(text: str) -> str:
     """A text as Python writes it, in the house's quotes: a formula raw, a long sentence in pieces."""
     is_raw = "\\" in text and '"' not in text and not text.endswith("\\") and text.isprintable()
-    pieces = re.findall(rf".{{1,{PIECE}}}(?:\s+|$)|\S+", str.__str__(text), re.DOTALL) or [""]
+    pieces = re.findall(rf".{{1,{PIECE}}}(?:\s+|$)|.{{1,{PIECE}}}(?<!\\)", str.__str__(text), re.DOTALL) or [""]
     return " ".join(f'r"{piece}"' if is_raw else _quoted(piece) for piece in pieces)
 
 
@@ -402,7 +427,7 @@ def _free_stem(path: Path) -> str:
 # -- the proof --------------------------------------------------------------------------------
 
 
-def _differs(state: State, found: Recorded) -> str:
+def _difference(state: State, found: Recorded, taken: Collection[str]) -> str:
     """What of the picture is another one in the recorded lesson; empty where it is the same.
 
     Raises
@@ -414,7 +439,7 @@ def _differs(state: State, found: Recorded) -> str:
     try:
         for name, mesh in found.meshes:
             files.write(found.path.with_name(name), mesh)
-        told = load(found.path, source=found.text.encode())[-1]
+        told = load(found.path, taken, source=found.text.encode())[-1]
         there = shown(told, state)
         return difference(picture(state), picture(there))
     except (LessonError, OSError, files.FileError) as error:

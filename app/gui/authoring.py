@@ -50,6 +50,7 @@ class Authoring(QObject):
         self._waiting: list[Path] = []
         self._said: set[Fault] = set()
         self._wanted: Path | None = None
+        self._expected: dict[Path, str] = {}
         self._is_opening = False
         self._watcher = QFileSystemWatcher(self)
         self._soon = QTimer(self, singleShot=True, interval=SOON)
@@ -101,6 +102,11 @@ class Authoring(QObject):
         self._take(folder)
         return True
 
+    def expect(self, path: Path, sentence: str) -> None:
+        """A file has been written; the sentence is said when it is loaded."""
+        self._expected[path] = sentence
+        self.look_again()
+
     def show_folder(self) -> None:
         """Open the folder where the system shows folders; choose one if there is none."""
         if self.folder is None:
@@ -127,7 +133,7 @@ class Authoring(QObject):
         if old := [*self._watcher.files(), *self._watcher.directories()]:
             self._watcher.removePaths(old)
         self.folder = folder.resolve()
-        self.found, self.faults, self._marks, self._waiting = {}, {}, {}, []
+        self.found, self.faults, self._marks, self._waiting, self._expected = {}, {}, {}, [], {}
         self.look_again()
         self._publish()
 
@@ -244,8 +250,11 @@ class Authoring(QObject):
         self._publish()
         for each in made:
             self._window.session.rewrite(retold, each)
+        expected = self._expected.pop(path, "")
         if outcome.remark is not None:
             self._window.banner.say(outcome.remark.sentence)
+        elif expected:
+            self._window.banner.tell(expected)
         elif is_again:
             self._window.banner.tell(phrase("Reloaded {file}", file=path.name))
         if path == self._wanted:

@@ -149,6 +149,7 @@ COMMANDS = (
             when=lambda state: is_open(state) and bool(state.predicted)),
     Command("search", "Find a lesson", "Lesson", ("Ctrl+K",), lambda w: w.find_lesson(), icon="search"),
     Command("record", "Record this view as a step…", "Lesson", ("Ctrl+R",), lambda w: w.recorder.choose()),
+    Command("record", "Record this view as a step…", "Lesson", ("Ctrl+R",), lambda w: w.recorder.choose()),
     Command("new_lesson", "New lesson…", "Lesson", (), lambda w: w.authoring.new_lesson()),
     Command("show_folder", "Show lessons folder", "Lesson", (), lambda w: w.authoring.show_folder()),
     Command("present", "Full screen", "Present", ("F5", "Shift+F5", "F11"), lambda w: w.toggle_presenting(),

@@ -28,7 +28,8 @@ MENUS = (
               "camera", "contents", "shown")),
     ("Lesson", ("forward", "back", "play", "", "level_up", "level_down", "", "first", "last", "", "more", "less",
                 "more_2", "less_2", "", "through",
-                "@Speed", "", "asking", "take_back", "", "search", "@Lessons", "", "new_lesson", "show_folder")),
+                "@Speed", "", "asking", "take_back", "", "search", "@Lessons", "", "record", "new_lesson",
+                "show_folder")),
     ("Present", ("present", "presenter", "blank", "", "laser", "magnifier")),
     ("Help", ("keys", "about")),
 )  # fmt: skip

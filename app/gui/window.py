@@ -49,6 +49,7 @@ from app.gui.notes import Notes
 from app.gui.opening import Opener
 from app.gui.parts import Section, column
 from app.gui.presenter import Presenter, spare_screen
+from app.gui.recorder import Recorder
 from app.gui.session import Session
 from app.gui.sheets import About, Keys
 from app.gui.shown import Shown
@@ -80,6 +81,7 @@ class Window(QMainWindow):
 
     session: Session
     authoring: Authoring
+    recorder: Recorder
     viewport: Viewport
     _body: QWidget
     _sides: dict[str, QWidget]
@@ -104,6 +106,7 @@ class Window(QMainWindow):
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
         self.opener = Opener(session, self.banner, self.opened)
         self.authoring = Authoring(self, Path(settings.fileName()).with_name("lessons.json"))
+        self.recorder = Recorder(self)
         self.contents.asked.connect(self.banner.say)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)

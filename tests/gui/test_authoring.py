@@ -8,10 +8,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog
 
 import lessons
+from app import bench
 from app.gui.consent import Consent
 from app.gui.contents import FAULT, LESSON
+from app.recording import difference, picture
 from app.shelf import remembered
-from app.state import drag, last, open_lesson, skip
+from app.state import at_stop, drag, last, open_lesson, skip, start, stops
 
 pytestmark = pytest.mark.window
 
@@ -68,6 +70,8 @@ def opened(qtbot, window, folder, monkeypatch):
     window.actions_by_id["lessons_folder"].trigger()
     assert len(asked) == 1
     rested(qtbot, window)
+    window.activateWindow()  # as a window manager does when a dialog has gone
+    qtbot.waitUntil(lambda: window.isActiveWindow(), timeout=5000)
 
 
 def test_a_folder_runs_only_after_the_user_agreed_and_is_not_asked_for_again(qtbot, window, folder, monkeypatch):
@@ -162,6 +166,35 @@ def test_a_new_lesson_is_written_loaded_and_shown(qtbot, window, folder, monkeyp
     assert shown == [str(folder)]
     window.actions_by_id["new_lesson"].trigger()
     assert "choose another name" in window.banner.words.text()
+
+
+def test_what_is_shown_is_recorded_by_one_key_into_a_lesson_that_shows_it(qtbot, window, folder, monkeypatch):
+    opened(qtbot, window, folder, monkeypatch)
+    asked = []
+    monkeypatch.setattr(QFileDialog, "getSaveFileName",
+                        lambda *a, **k: (asked.append(a), (str(folder / "My talk"), ""))[1])
+    session = window.session
+    session.do(bench.enter)
+    session.do(last)
+    session.do(drag, 0, (1.5, 1.5, 1.5))
+    for _ in range(2):
+        window.banner.hide()
+        shown = picture(session.state)
+        QTest.keyClick(window.windowHandle(), Qt.Key.Key_R, Qt.KeyboardModifier.ControlModifier)
+        qtbot.waitUntil(lambda: "Recorded as the last step of my_talk.py" in window.banner.words.text()
+                        and window.banner.isVisible(), timeout=20_000)
+        rested(qtbot, window)
+        talk = lessons.find("my_talk")
+        assert difference(shown, picture(at_stop(start(talk, session.state.options), stops(talk)[-1]))) == ""
+        session.do(skip, -1)
+    assert len(asked) == 1  # once for each lesson
+    assert len(talk.beats) == 2
+    assert session.state.lesson.id == "laboratory"
+    (folder / "my_talk.py").write_text("broken(\n")
+    qtbot.waitUntil(lambda: "never closed" in window.banner.words.text(), timeout=20_000)
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_R, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(lambda: "Nothing was recorded" in window.banner.words.text(), timeout=20_000)
+    assert (folder / "my_talk.py").read_text() == "broken(\n"
 
 
 def _short(path, taken):
