@@ -1,6 +1,6 @@
 """The presenter's window: what the lecturer reads while the class sees the picture."""
 
-from PySide6.QtCore import QElapsedTimer, Qt, QTime, QTimer
+from PySide6.QtCore import QElapsedTimer, QSize, Qt, QTime, QTimer
 from PySide6.QtGui import QFont, QGuiApplication, QHideEvent, QPainter, QPaintEvent, QScreen, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
@@ -12,10 +12,11 @@ from app.draw.type import measure
 from app.gui.brush import type_
 from app.gui.furniture import throw_away
 from app.gui.look import GRID, fine, px, type_face
-from app.gui.parts import heading
+from app.gui.parts import column, gap, heading
 from app.gui.session import Session
 from app.gui.timeline import current
 from app.state import State, at_stop, settle, stops
+from app.words import headed, tr
 from lessons import all_lessons
 from subdivision.words import phrase
 
@@ -23,7 +24,7 @@ TICK = 250
 """Milliseconds between looks at the clock."""
 
 SIZE = 960, 600
-"""Where there is no second screen to fill."""
+"""Where there is no second screen to fill; pixels at 100 %."""
 
 FORMULA = 30.0
 """Pixels at 100 %."""
@@ -35,7 +36,6 @@ class Presenter(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
-        self.setWindowTitle("Presenter")
         self.setAttribute(Qt.WidgetAttribute.WA_QuitOnClose, False)
         self.setAttribute(Qt.WidgetAttribute.WA_ShowWithoutActivating)
         self.setMinimumSize(480, 360)
@@ -57,47 +57,48 @@ class Presenter(QWidget):
             self.show_state(self._session.state)
 
     def _build(self) -> None:
+        self.setWindowTitle(tr("Presenter"))
         self._inside = QWidget()
         self._outside.addWidget(self._inside)
         self.lesson, self.step = _words(18, QFont.Weight.DemiBold), _words(18)
         self.caption, self.formula = _words(28, QFont.Weight.DemiBold), Formula()
         self.notes, self.following = _words(20), _words(20)
         self.clock, self.elapsed = _words(28), _words(28)
-        self.again = QPushButton("Start again")
-        self.again.setToolTip("Count the time from now")
-        self.again.setAccessibleName("Count the time from now")
+        self.again = QPushButton(tr("Start again"))
+        self.again.setToolTip(tr("Count the time from now"))
+        self.again.setAccessibleName(tr("Count the time from now"))
         self.again.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.again.clicked.connect(self.reset)
         self._lay_out()
 
     def _lay_out(self) -> None:
-        column = QVBoxLayout(self._inside)
-        column.setContentsMargins(px(4 * GRID), px(3 * GRID), px(4 * GRID), px(3 * GRID))
-        column.setSpacing(px(GRID))
+        page = QVBoxLayout(self._inside)
+        page.setContentsMargins(px(4 * GRID), px(3 * GRID), px(4 * GRID), px(3 * GRID))
+        page.setSpacing(px(GRID))
         top, bottom = QHBoxLayout(), QGridLayout()
         top.addWidget(self.lesson, 1)
         top.addWidget(self.step)
         reader = QScrollArea(widgetResizable=True)
         reader.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        reader.setAccessibleName("Notes")
+        reader.setAccessibleName(tr("Notes"))
         reader.setWidget(self.notes)
+        reader.setMinimumHeight(px(10 * GRID))
         for k, (name, value) in enumerate((("Time", self.clock), ("Elapsed", self.elapsed))):
             bottom.addWidget(heading(name), 0, k)
             bottom.addWidget(value, 1, k)
         bottom.addWidget(self.again, 1, 2)
         bottom.setColumnStretch(3, 1)
         bottom.setHorizontalSpacing(px(4 * GRID))
-        column.addLayout(top)
-        column.addSpacing(px(GRID))
-        for part in (self.caption, self.formula):
-            column.addWidget(part)
-        column.addSpacing(px(2 * GRID))
-        column.addWidget(heading("Notes"))
-        column.addWidget(reader, 1)
-        column.addWidget(heading("Next"))
-        column.addWidget(self.following)
-        column.addSpacing(px(2 * GRID))
-        column.addLayout(bottom)
+        page.addLayout(top)
+        page.addSpacing(px(GRID))
+        words = (self.caption, self.formula, gap(px(GRID)), heading("Notes"), reader, heading("Next"), self.following)
+        scrolled = QScrollArea(widgetResizable=True)
+        scrolled.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        scrolled.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scrolled.setWidget(_spaced(*words, stretched=reader))
+        page.addWidget(scrolled, 1)
+        page.addSpacing(px(GRID))
+        page.addLayout(bottom)
 
     def open(self, beside: QWidget) -> None:
         """On the other screen if there is one, all over it; else as a window."""
@@ -105,6 +106,8 @@ class Presenter(QWidget):
             self.setGeometry(screen.availableGeometry())
             self.showMaximized()
         else:
+            wished = QSize(px(SIZE[0]), px(SIZE[1])).boundedTo(beside.screen().availableSize())
+            self.resize(self.size().expandedTo(wished))
             self.showNormal()
         self.raise_()
 
@@ -117,8 +120,8 @@ class Presenter(QWidget):
         if not self.isVisible():
             return
         now, total = step_of(state)
-        self.lesson.setText(state.lesson.title)
-        self.step.setText(f"Step {now} of {total}")
+        self.lesson.setText(tr(state.lesson.title))
+        self.step.setText(tr(phrase("Step {now} of {total}", now=now, total=total)))
         self.caption.setText(said(state, state.now))
         self.formula.show_state(state)
         self.notes.setText(noted(state))
@@ -180,9 +183,9 @@ def step_of(state: State) -> tuple[int, int]:
 
 def noted(state: State) -> str:
     """What may be said to the step, and what is not the lecture's own; at a question, the answer."""
-    ours = f"Not in the lecture: {state.lesson.ours}" if state.lesson.ours else ""
+    ours = phrase("Not in the lecture: {remark}", remark=state.lesson.ours) if state.lesson.ours else ""
     said_so_far = phrase("Predictions: {n}.", n=len(state.predicted)) if is_open(state) else ""
-    return "\n\n".join(words for words in (spoken_truth(state), said_so_far, state.now.notes, ours) if words)
+    return "\n\n".join(tr(words) for words in (spoken_truth(state), said_so_far, state.now.notes, ours) if words)
 
 
 def upcoming(state: State) -> str:
@@ -193,19 +196,28 @@ def upcoming(state: State) -> str:
         return _next_lesson(state)
     then = at_stop(there, later[0])
     stage, words = current(then).name, said(then, then.now)
-    return f"{stage.capitalize()}: {words}" if stage else words
+    return f"{headed(tr(stage))}: {words}" if stage else words
 
 
 def _next_lesson(state: State) -> str:
     every = all_lessons()
     here = next((k for k, lesson in enumerate(every) if lesson.id == state.lesson.id), len(every) - 1)
-    return f"The lesson ends here. Next: {every[here + 1].title}" if here + 1 < len(every) else "The lesson ends here."
+    if here + 1 == len(every):
+        return tr("The lesson ends here.")
+    return tr(phrase("The lesson ends here. Next: {title}", title=every[here + 1].title))
 
 
 def spoken_time(seconds: int) -> str:
     """Minutes and seconds, with hours from the first one on."""
     minutes, hours = seconds // 60 % 60, seconds // 3600
     return f"{hours}:{minutes:02}:{seconds % 60:02}" if hours else f"{minutes}:{seconds % 60:02}"
+
+
+def _spaced(*parts: QWidget, stretched: QWidget) -> QWidget:
+    """A column with the spaces of a page."""
+    found = column(*parts, stretched=stretched)
+    found.layout().setSpacing(px(GRID))  # type: ignore[union-attr]
+    return found
 
 
 def _words(size: float, weight: QFont.Weight = QFont.Weight.Normal) -> QLabel:
