@@ -131,9 +131,10 @@ def film(
         except BaseException:
             encoder.kill()
             raise
-        if encoder.wait() != 0:
-            said.seek(0)
-            reason = said.read().decode(errors="replace").strip().rpartition("\n")[2]
+        status = encoder.wait()
+        said.seek(0)
+        reason = said.read().decode(errors="replace").strip().rpartition("\n")[2]
+        if status != 0 or reason:  # it ends with 0 where only the end of the file could not be written
             raise FilmError(
                 phrase(
                     "ffmpeg could not write the film: {reason}; try another folder",
@@ -184,7 +185,7 @@ def _telling(played: Sequence[Shot]) -> list[Shot]:
     """The stops, and the middles between them: together they hold every colour."""
     stops = [k for k, s in enumerate(played) if s.seconds > 0.5]
     middles = [(a + b) // 2 for a, b in pairwise(stops) if b - a > 1]
-    chosen = sorted({*stops, *middles})
+    chosen = sorted({*stops, *middles}) or range(len(played))  # none rests long where the pace is fast
     return [played[k] for k in chosen[:: max(len(chosen) // 12, 1)]]
 
 

@@ -1,6 +1,6 @@
 """Exports in the making: all files in a folder of their own first, then each in its place, so none is half there."""
 
-import secrets
+import os
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -14,6 +14,7 @@ from app.figures import FigureError, file_name, png, stood_on, svg
 from app.state import State, at_stop, last, settle, start, stops
 from lessons.script import View
 from subdivision import Mesh, TopologyError, Trace, files, subdivide
+from subdivision.files.saving import part_of
 from subdivision.words import phrase
 
 Progress: TypeAlias = Callable[[float, str], None]
@@ -68,7 +69,7 @@ def _aside(out: Path) -> Iterator[Path]:
     """A folder beside ``out`` that goes, with all that is in it, when the work is over."""
     if not out.absolute().parent.is_dir():
         raise ExportError(phrase("there is no folder {folder}; choose another one", folder=out.absolute().parent))
-    folder = out.absolute().with_name(f".{secrets.token_hex(8)}.part")
+    folder = part_of(out.absolute())
     try:
         folder.mkdir()
         yield folder
@@ -77,11 +78,17 @@ def _aside(out: Path) -> Iterator[Path]:
 
 
 def _placed(folder: Path, jobs: Sequence[Job], wish: Wish, out: Path) -> list[Path]:
-    """Everything is made: into its place."""
-    if not wish.is_folder:
-        return [(folder / jobs[0].name).replace(out)]
-    out.mkdir(exist_ok=True)
-    return [(folder / job.name).replace(out / job.name) for job in jobs]
+    """Everything is made, and on the disk: into its place."""
+    made = [folder / job.name for job in jobs]
+    for path in made:
+        with path.open("rb+") as file:
+            os.fsync(file.fileno())
+    places = [out / path.name for path in made] if wish.is_folder else [out]
+    if (taken := next((place for place in places if place.is_dir()), None)) is not None:
+        raise ExportError(phrase("{path} is a folder; choose another name", path=taken))
+    if wish.is_folder:
+        out.mkdir(exist_ok=True)
+    return [path.replace(place) for path, place in zip(made, places, strict=True)]
 
 
 # -- what is to be made -----------------------------------------------------------------------

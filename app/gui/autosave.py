@@ -5,7 +5,6 @@ import secrets
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from time import time
 
 from platformdirs import user_state_path
 from PySide6.QtCore import QLockFile, QObject, QThreadPool, QTimer, Signal
@@ -24,9 +23,6 @@ PATIENCE = 5000
 
 AGAIN = 20_000
 """Milliseconds after which what could not be kept is tried once more: disks are emptied."""
-
-OLD = 3600.0
-"""Seconds after which half a file is nobody's any more."""
 
 LOG = logging.getLogger(__name__)
 
@@ -134,7 +130,7 @@ class Autosave(QObject):
 
 
 def _left_over(folder: Path) -> dict[Path, QLockFile]:
-    """What crashed programs have left, the newest first, and the locks that make it ours; the rest is cleared away."""
+    """What crashed programs have left, the newest first, and the locks that make it ours."""
     found = {}
     for path in {each.with_suffix(SUFFIX) for each in (*folder.glob("*.lock"), *folder.glob(f"*{SUFFIX}"))}:
         if (lock := _locked(path)) is None:
@@ -143,10 +139,6 @@ def _left_over(folder: Path) -> dict[Path, QLockFile]:
             found[path] = lock
         else:
             lock.unlock()
-    for half in folder.glob(".*.part"):
-        with suppress(OSError):
-            if time() - half.stat().st_mtime > OLD:
-                half.unlink()
     return dict(sorted(found.items(), key=lambda each: each[0].stat().st_mtime, reverse=True))
 
 

@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QFont, QGuiApplication
 from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from app.gui.look import GRID, type_face
@@ -21,6 +21,7 @@ from app.state import rest
 from app.words import tr
 from subdivision.words import phrase
 
+TITLE = "Something went wrong inside the program"
 SOOTHING = (
     "What is open is still there; save the session to be safe. The report says what happened to those who mend the "
     "program; it goes nowhere by itself."
@@ -114,8 +115,11 @@ class FaultDialog(QDialog):
         self._reports: list[Report] = []
         self._counts: Mapping[str, int] = {}
         self._versions: Mapping[str, str] = {}
-        self.setWindowTitle(tr("Something went wrong inside the program"))
-        self.sentence, self.often = _words(15), _words(14)
+        self.setWindowTitle(tr(TITLE))
+        title = _words(15)
+        title.setFont(type_face(15, QFont.Weight.DemiBold))
+        title.setText(tr(TITLE))
+        self.sentence, self.often = _words(14), _words(14)
         soothing = _words(14)
         soothing.setText(tr(SOOTHING))
         self.text = QPlainTextEdit(readOnly=True)
@@ -130,7 +134,7 @@ class FaultDialog(QDialog):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(3 * GRID, 3 * GRID, 3 * GRID, 2 * GRID)
         layout.setSpacing(2 * GRID)
-        for part in (self.sentence, self.often, soothing):
+        for part in (title, self.sentence, self.often, soothing):
             layout.addWidget(part)
         layout.addWidget(self.details, 1)
         layout.addLayout(_row(self.save, self.copy, self.go_on))

@@ -1,11 +1,19 @@
 """Writing a file whole or not at all."""
 
 import os
+import re
 import secrets
 import shutil
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
+from time import time
+
+PART = re.compile(r"\.[0-9a-f]{16}\.part")
+"""What is half written is called so, and nothing else is."""
+
+OLD = 3600.0
+"""Seconds after which it is nobody's any more: its program was killed."""
 
 
 def save(path: Path, pieces: Iterable[bytes]) -> None:
@@ -16,7 +24,7 @@ def save(path: Path, pieces: Iterable[bytes]) -> None:
     OSError
     """
     target = Path(os.path.realpath(path))  # a link stays a link
-    part = target.with_name(f".{secrets.token_hex(8)}.part")
+    part = part_of(target)
     try:
         with part.open("xb") as file:
             file.writelines(pieces)
@@ -29,3 +37,19 @@ def save(path: Path, pieces: Iterable[bytes]) -> None:
         with suppress(OSError):
             part.unlink()
         raise
+
+
+def part_of(target: Path) -> Path:
+    """Where to write what will be ``target``; what killed programs have left there long ago is cleared away."""
+    with suppress(OSError):
+        for each in os.scandir(target.parent):
+            if PART.fullmatch(each.name) and time() - each.stat(follow_symlinks=False).st_mtime > OLD:
+                _remove(Path(each.path))
+    return target.with_name(f".{secrets.token_hex(8)}.part")
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
