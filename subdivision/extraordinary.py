@@ -123,9 +123,13 @@ class Analysis:
         if not is_smooth:
             return Condition(name, False, "no curvature", "there is no tangent plane")
         if abs(abs(value) - square) <= EQUAL:
-            return Condition(name, True, "bounded", phrase("{told}: the curvature is bounded and not zero", told=told))
+            return Condition(
+                name, True, phrase("bounded"), phrase("{told}: the curvature is bounded and not zero", told=told)
+            )
         if abs(value) > square:
-            return Condition(name, False, "pinched", phrase("{told}: the curvature grows without bound", told=told))
+            return Condition(
+                name, False, phrase("pinched"), phrase("{told}: the curvature grows without bound", told=told)
+            )
         return Condition(name, True, "flat spot", phrase("{told}: the curvature dies out", told=told))
 
 
@@ -178,7 +182,7 @@ class PullRule:
         found = [Special(name, self.pull_of(scheme, n)) for name, scheme in self.published.items()]
         bound = self.bounded(n)
         if all(abs(float(each.pull) - float(bound)) > EQUAL for each in found):
-            found.append(Special("bounded", bound))
+            found.append(Special(phrase("bounded"), bound))
         return tuple(found)
 
 

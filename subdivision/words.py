@@ -1,6 +1,7 @@
 """Sentences that remember how they were made, so that they can be said in another language."""
 
 from collections.abc import Iterable
+from numbers import Integral
 from typing import Any
 
 
@@ -74,10 +75,19 @@ def filled(template: str, values: dict[str, Any]) -> str:
 class _Gaps(dict[str, Any]):
     def __getitem__(self, name: str) -> Any:
         value = super().__getitem__(name)
+        if isinstance(value, Integral) and not isinstance(value, bool):
+            return _Number(value)
         return _Text(value) if isinstance(value, str) else value
 
     def __missing__(self, name: str) -> str:
         return "{" + name + "}"
+
+
+class _Number(int):
+    """A whole number in a gap, whose thousands can stand apart: ``{faces:space}``, as most languages write them."""
+
+    def __format__(self, how: str) -> str:
+        return f"{int(self):,}".replace(",", "\u202f") if how == "space" else format(int(self), how)
 
 
 class _Text(str):

@@ -19,9 +19,10 @@ LAYERS = {
     "subdivision": ("subdivision",),
     "lessons": ("subdivision", "lessons"),
     "app.lab": ("subdivision", "lessons", "app.lab"),
-    "app.state": ("subdivision", "lessons", "app.lab", "app.state"),
-    "app.draw": ("subdivision", "lessons", "app.state", "app.draw"),
-    "app.figures": ("subdivision", "lessons", "app.state", "app.draw", "app.figures"),
+    "app.words": ("subdivision", "app.words"),
+    "app.state": ("subdivision", "lessons", "app.lab", "app.words", "app.state"),
+    "app.draw": ("subdivision", "lessons", "app.words", "app.state", "app.draw"),
+    "app.figures": ("subdivision", "lessons", "app.words", "app.state", "app.draw", "app.figures"),
     "app.gui": ("subdivision", "lessons", "app"),
     "app": ("subdivision", "lessons", "app"),
 }

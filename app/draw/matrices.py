@@ -39,7 +39,7 @@ def matrices(trace: Trace, at: float, theme: Theme, spot: Spot | None) -> Diagra
     product = _product(trace, begin, k)
     shown = [product, *factors] if len(factors) > 1 else factors
     names = [stage.name for stage in reversed(stages)]
-    titles = ["product", *names] if len(factors) > 1 else names
+    titles = [phrase("product"), *names] if len(factors) > 1 else names
     if sum(m.nnz for m in shown) > MOST:
         words = phrase("{n:,} weights: too many to tell apart. Go to a lower level.", n=sum(m.nnz for m in shown))
         return Diagram((-6, -2, 6, 2), notes=(Note(0, 0, words, theme.muted, "center"),))

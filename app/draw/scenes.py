@@ -12,6 +12,7 @@ from subdivision import Connectivity, Frame, Grid, Mesh, Polyline, Role, Topolog
 from subdivision.arrays import Floats, Indices, Mask
 from subdivision.exact import spelled_together
 from subdivision.rows import shown_corners, shown_faces
+from subdivision.words import phrase
 
 MARKER = 0.036
 """Radius of an original point, relative to the radius of the control object."""
@@ -62,7 +63,7 @@ FEW = 60
 PALEST, DEEPEST = 0.35, 0.8
 """How deep the colour of the lightest and of the heaviest contributor is."""
 
-CONTRIBUTOR, POINTED_OUT = "contributor", "pointed out"
+CONTRIBUTOR, POINTED_OUT = phrase("contributor"), "pointed out"
 """Names of the markers of a stencil."""
 
 EXTRAORDINARY_NAME = "extraordinary vertex"

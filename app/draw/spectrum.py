@@ -202,12 +202,12 @@ def _by_mode(found: Analysis) -> dict[int, Condition]:
 def _verdict(condition: Condition) -> str:
     if condition.name != "C¹":
         return condition.word
-    return "C¹ holds" if condition.holds else phrase("C¹ fails: {word}", word=condition.word)
+    return phrase("C¹ holds") if condition.holds else phrase("C¹ fails: {word}", word=condition.word)
 
 
 def _mode(k: int) -> str:
     """What runs so often round the vertex."""
-    return {0: "0, bowls", 1: "±1, ring", 2: "±2, saddles"}.get(k, f"±{k}")
+    return {0: phrase("0, bowls"), 1: phrase("±1, ring"), 2: phrase("±2, saddles")}.get(k, f"±{k}")
 
 
 def _values(found: Analysis, theme: Theme) -> tuple[list[Box], list[Note]]:
@@ -230,13 +230,13 @@ def said(value: float, places: int = 4) -> str:
 # -- counts -------------------------------------------------------------------------------------
 
 COLUMNS = (
-    ("level", 0.0),
+    (phrase("level"), 0.0),
     ("V", 1.6),
     ("E", 3.2),
     ("F", 4.8),
     ("χ", 5.8),
-    ("extraordinary", 8.1),
-    ("apart", 10.0),
+    (phrase("extraordinary"), 8.1),
+    (phrase("apart"), 10.0),
 )
 """What is counted, and where its figures end."""
 

@@ -15,6 +15,7 @@ from app.draw.seen import seen
 from app.draw.type import FAMILY, runs
 from app.figures import stood_on
 from app.state import State
+from app.words import tr
 
 TALL = 7.5
 """Inches: the height of a slide; its width is as the pictures'."""
@@ -42,10 +43,10 @@ def deck(
     made = Presentation()
     unit = TALL / size[1]
     made.slide_width, made.slide_height = (_emu(n, unit) for n in size)
-    made.core_properties.title = steps[0].lesson.title if len(told) == 1 else "Subdivision Curves and Surfaces"
+    made.core_properties.title = tr(steps[0].lesson.title if len(told) == 1 else "Subdivision Curves and Surfaces")
     made.core_properties.author = "Subdivision Studio"
     for k, step in enumerate(steps, 1):
-        _slide(made, stood_on(seen(step), background), step.now.notes, size, unit)
+        _slide(made, stood_on(seen(step), background), tr(step.now.notes), size, unit)
         progress(k / len(steps))
     out = BytesIO()
     made.save(out)

@@ -9,6 +9,7 @@ from app.draw.primitives import Primitive, Stroke, Text
 from app.draw.seen import seen
 from app.draw.type import measure, wrapped
 from app.state import State, choose
+from app.words import tr
 
 A4 = (595.0, 842.0)
 MARGIN, GAP, HEAD = 42.0, 14.0, 44.0
@@ -37,7 +38,7 @@ def handout(
     told: Sequence[Sequence[State]], size: tuple[int, int], background: str, progress: Callable[[float], None]
 ) -> bytes:
     """The bytes of a PDF for paper, so always dark on white; every lesson begins a sheet."""
-    paper = Paper(told[0][0].lesson.title if len(told) == 1 else "Subdivision Curves and Surfaces")
+    paper = Paper(tr(told[0][0].lesson.title if len(told) == 1 else "Subdivision Curves and Surfaces"))
     count, sheet = sum(len(steps) for steps in told), 0
     done = 0
     for steps in told:
@@ -45,7 +46,7 @@ def handout(
             if k % ROWS == 0:
                 sheet += 1
                 paper.turn(*A4)
-                paper.paint(_furniture(step.lesson.title, sheet))
+                paper.paint(_furniture(tr(step.lesson.title), sheet))
             row = _Row(step, k + 1, is_last=k + 1 == len(steps) or steps[k + 1].beat != step.beat)
             row.paint(paper, HEAD + MARGIN + (k % ROWS) * TALL)
             done += 1
@@ -100,7 +101,7 @@ class _Row:
             formula = picture.formula.replace(r"\frac", r"\dfrac")
             yield formula, FORMULA, INK
         if self.is_last and self.step.now.notes:
-            yield self.step.now.notes, NOTES, MUTED
+            yield tr(self.step.now.notes), NOTES, MUTED
 
 
 def _for_paper(picture: Picture) -> Picture:

@@ -6,6 +6,7 @@ from app.draw.pdf import Paper
 from app.draw.seen import seen
 from app.figures import stood_on
 from app.state import State
+from app.words import tr
 
 
 def pages(
@@ -13,7 +14,7 @@ def pages(
 ) -> bytes:
     """The bytes of the file; ``told`` has the steps of every lesson."""
     steps = [step for lesson in told for step in lesson]
-    paper = Paper(steps[0].lesson.title if len(told) == 1 else "Subdivision Curves and Surfaces")
+    paper = Paper(tr(steps[0].lesson.title if len(told) == 1 else "Subdivision Curves and Surfaces"))
     width, height = size
     for k, step in enumerate(steps, 1):
         paper.turn(width, height)

@@ -9,6 +9,8 @@ from app.draw.pointed import ACROSS
 from app.gui.look import px, sized, type_face
 from app.gui.session import Session
 from app.state import State, choose
+from app.words import tr
+from subdivision.words import phrase
 
 NAMES = {"stage": "Stage", "step": "Step", "all": "All", "limit": "Limit"}
 
@@ -25,15 +27,16 @@ class Across(QWidget):
         self.buttons = {}
         for k, (across, meaning) in enumerate(ACROSS.items(), 1):
             button = QToolButton()
-            button.setText(NAMES[across])
+            button.setText(tr(NAMES[across]))
             button.setFont(type_face(12))
             button.setStyleSheet(sized("padding: 2px 0"))
             button.setCheckable(True)
             button.setFixedHeight(px(28))
             button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-            button.setAccessibleName(f"Weights across {meaning}")
-            button.setToolTip(f"Weights across {meaning} ({k})")
+            words = tr(phrase("Weights across {meaning}", meaning=meaning))
+            button.setAccessibleName(words)
+            button.setToolTip(f"{words} ({k})")
             button.clicked.connect(partial(session.do, choose, across=across))
             self._group.addButton(button)
             row.addWidget(button)

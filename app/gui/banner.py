@@ -12,6 +12,7 @@ from app.gui.look import GRID, chosen_of, colour, icon, px
 from app.gui.session import Session
 from app.gui.timeline import tool_button
 from app.state import State
+from app.words import tr
 from subdivision import Role
 
 
@@ -35,15 +36,15 @@ class Banner(QWidget):
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self._busy = QProgressBar(minimum=0, maximum=0, textVisible=False)
         self._busy.setFixedWidth(px(96))
-        self._cancel = QPushButton("Cancel")
+        self._cancel = QPushButton(tr("Cancel"))
         self._cancel.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self._cancel.clicked.connect(self._cancelled)
         self.accept = QPushButton()
         self.accept.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.accept.clicked.connect(self._accepted)
         self._close = tool_button("close", self._session.state.options.theme)
-        self._close.setToolTip("Close this message (Esc)")
-        self._close.setAccessibleName("Close this message")
+        self._close.setToolTip(tr("Close this message (Esc)"))
+        self._close.setAccessibleName(tr("Close this message"))
         self._close.clicked.connect(self.hide)
         self._row.setContentsMargins(px(2 * GRID), px(GRID), px(GRID), px(GRID))
         self._row.setSpacing(px(2 * GRID))
@@ -85,7 +86,7 @@ class Banner(QWidget):
     def offer(self, sentence: str, name: str, on_accept: Callable[[], None]) -> None:
         """Something that a button would do."""
         self._on_accept = on_accept
-        self.accept.setText(name)
+        self.accept.setText(tr(name))
         self._set(sentence, is_fault=False, is_busy=False, is_offer=True)
 
     def wait(self, sentence: str, on_cancel: Callable[[], None]) -> None:
@@ -99,7 +100,7 @@ class Banner(QWidget):
         if not self.isHidden() and not self._busy.isHidden():
             self._busy.setRange(0, 1000)
             self._busy.setValue(round(1000 * part))
-            self.words.setText(sentence)
+            self.words.setText(tr(sentence))
 
     def done(self) -> None:
         """What took a while is over."""
@@ -108,8 +109,8 @@ class Banner(QWidget):
 
     def _set(self, sentence: str, *, is_fault: bool, is_busy: bool, is_offer: bool = False) -> None:
         self._is_fault, self._said_in = is_fault, self._session.state.lesson
-        self.words.setText(sentence)
-        self.setAccessibleName(sentence)
+        self.words.setText(tr(sentence))
+        self.setAccessibleName(tr(sentence))
         self._close.setIcon(icon("close", self._session.state.options.theme))
         self._busy.setVisible(is_busy)
         self._cancel.setVisible(is_busy)

@@ -6,6 +6,8 @@ from typing import Any
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
 
+from app.words import headed, tr
+
 
 class Choice(QWidget):
     """A name above a list to choose from; ``chosen`` is called with what is chosen by hand."""
@@ -13,8 +15,8 @@ class Choice(QWidget):
     def __init__(self, name: str, chosen: Callable[[Any], None]) -> None:
         super().__init__()
         self.box = QComboBox()
-        self.box.setAccessibleName(name)
-        self.box.setToolTip(name)
+        self.box.setAccessibleName(tr(name))
+        self.box.setToolTip(tr(name))
         self.box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.box.setMinimumContentsLength(8)
         self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
@@ -31,5 +33,5 @@ class Choice(QWidget):
             self._values = list(values)
             self.box.clear()
             for name, value in values:
-                self.box.addItem(name, value)
+                self.box.addItem(headed(tr(name)), value)
         self.box.setCurrentIndex(next((k for k, (_, value) in enumerate(values) if value == chosen), -1))

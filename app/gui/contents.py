@@ -21,6 +21,7 @@ from app.gui.look import GRID, chosen_of, colour, fine, icon, px, tint_of, type_
 from app.gui.session import Session
 from app.lab import LABORATORY, SECTION
 from app.state import State, open_lesson
+from app.words import tr
 from lessons.script import OWN, Lesson
 from subdivision import Role
 
@@ -47,8 +48,8 @@ class Contents(QWidget):
         super().__init__()
         self._session = session
         self._shown: State | None = None
-        self.search = QLineEdit(placeholderText="Search   Ctrl+K", clearButtonEnabled=True)
-        self.search.setAccessibleName("Search the lessons")
+        self.search = QLineEdit(placeholderText=tr("Search   Ctrl+K"), clearButtonEnabled=True)
+        self.search.setAccessibleName(tr("Search the lessons"))
         self.search.textChanged.connect(self._filter)
         self.search.returnPressed.connect(self._open_first)
         self._model = QStandardItemModel(self)
@@ -112,13 +113,13 @@ class Contents(QWidget):
         for each in sorted(self._lessons, key=lambda lesson: lesson.section):
             if each.section != section:
                 section = each.section
-                heading = QStandardItem(section)
+                heading = QStandardItem(tr(section))
                 heading.setFlags(Qt.ItemFlag.NoItemFlags)
                 self._model.appendRow(heading)
-            row = QStandardItem(each.title)
+            row = QStandardItem(tr(each.title))
             row.setEditable(False)
             row.setData(self._faults.get(each.id, ""), FAULT)
-            row.setToolTip(self._faults.get(each.id) or each.title)
+            row.setToolTip(tr(self._faults.get(each.id) or each.title))
             row.setData(each, LESSON)
             self._model.appendRow(row)
         self._filter(self.search.text())
@@ -191,7 +192,7 @@ class _List(QListView):
     def __init__(self) -> None:
         super().__init__()
         self.empty = ""
-        self.setAccessibleName("Lessons")
+        self.setAccessibleName(tr("Lessons"))
         self.setMouseTracking(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setVerticalScrollMode(QListView.ScrollMode.ScrollPerPixel)
@@ -247,7 +248,7 @@ class _Painter(QStyledItemDelegate):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(colour(theme.accent), fine(1)))
             painter.drawRoundedRect(box.adjusted(px(1), px(2), -px(1), -px(2)), fine(6), fine(6))
-        number, title = numbered(lesson.title)
+        number, title = numbered(str(index.data()))
         ink, muted = colour(theme.ink), colour(theme.ink if is_open else theme.muted)
         if number:
             painter.setFont(type_face(13, QFont.Weight.Medium))
@@ -272,4 +273,4 @@ def numbered(title: str) -> tuple[str, str]:
     """The number of a figure or an exercise and the rest of its title: in a list of them the word says nothing."""
     head, _, rest = title.partition("  ")
     word, _, number = head.partition(" ")
-    return (number, rest.strip()) if rest and word in ("Figure", "Exercise") else ("", title)
+    return (number, rest.strip()) if rest and word in (tr("Figure"), tr("Exercise")) else ("", title)

@@ -3,7 +3,7 @@
 An edit that would break the object is answered with the reason.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -18,9 +18,11 @@ from app.gui.session import Session
 from app.gui.shown import Switch
 from app.gui.stepper import Stepper
 from app.state import State
+from app.words import tr
 from subdivision import Connectivity, Grid, Polyline, Topology, TopologyError
 from subdivision.editing import fan_of
 from subdivision.topology import INFINITELY_SHARP
+from subdivision.words import phrase
 
 EDITS = (
     ("insert", "Insert point", "Ins", "A point more where the polygon's edge was clicked, or beyond its picked end",
@@ -86,12 +88,12 @@ class Editing(QWidget):
         try:
             self._session.do(transition, *args)
         except TopologyError as refusal:
-            self._banner.say(sentence(str(refusal)))
+            self._banner.say(phrase("{reason:sentence}", reason=str(refusal)))
             self._about = ()
             self.show_state(self._session.state)
             return
         if said := editing.replaced_rule(before, self._session.state):
-            self._banner.tell(sentence(said))
+            self._banner.tell(phrase("{said:sentence}", said=said))
 
     def show_state(self, state: State) -> None:
         is_open = bench.is_open(state) and state.lab is not None
@@ -101,7 +103,7 @@ class Editing(QWidget):
             return
         self._about = about
         t = state.lab.control.topology
-        self.hint.setText(hint(state))
+        self.hint.setText(tr(hint(state)))
         self._show_buttons(state, t)
         sharpness = editing.sharpness(state)
         self.sharpness.setVisible(isinstance(t, Topology))
@@ -147,8 +149,8 @@ class Editing(QWidget):
 
     def _switch(self, name: str, tip: str, done: Callable[[], None]) -> Switch:
         switch = Switch(name, "", self._session)
-        switch.setToolTip(tip)
-        switch.setAccessibleName(name)
+        switch.setToolTip(tr(tip))
+        switch.setAccessibleName(tr(name))
         switch.clicked.connect(lambda: done())
         return switch
 
@@ -171,13 +173,13 @@ class Sharpness(QWidget):
         self.slider.setPageStep(2)
         self.slider.setTracking(False)
         self.slider.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.slider.setAccessibleName("Sharpness")
+        self.slider.setAccessibleName(tr("Sharpness"))
         tip = "Sharpness of what is picked: 0 smooth, 10 for ever; it is one less at every level (S, Shift+S)"
-        self.slider.setToolTip(tip)
+        self.slider.setToolTip(tr(tip))
         self.slider.sliderMoved.connect(lambda step: self._value.setText(f"{step * editing.STEP:g}"))
         self.slider.valueChanged.connect(lambda step: self._chosen(step * editing.STEP))
         row = QHBoxLayout()
-        row.addWidget(QLabel("Sharpness"), 1)
+        row.addWidget(QLabel(tr("Sharpness")), 1)
         row.addWidget(self._value)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, px(GRID / 2), 0, 0)
@@ -207,34 +209,29 @@ def hint(state: State) -> str:
     """What can be picked, or how much is."""
     picked = state.picked
     if picked is not None:
-        return f"Picked: {', '.join(_listed(picked.kind, picked.numbers))}."
+        return phrase("Picked: {parts}.", parts=_listed(picked.kind, picked.numbers))
     t = editing.control(state).topology
     if state.at > 0 and not state.options.control:
         return HIDDEN
     return next(words for kind, words in HINTS if isinstance(t, kind))
 
 
-def _listed(kind: str, numbers: tuple[int, ...]) -> Iterator[str]:
-    """The kind with its numbers, or how many there are."""
-    names = {"vertex": "vertices"}
-    if len(numbers) == 1:
-        yield f"{kind} {numbers[0]}"
-    else:
-        yield f"{len(numbers)} {names.get(kind, kind + 's')}"
+ONE = {"vertex": "vertex {number}", "edge": "edge {number}", "face": "face {number}"}
+MANY = {"vertex": "{n} vertices", "edge": "{n} edges", "face": "{n} faces"}
+"""What is picked, in words: one by its number, several by how many they are."""
 
 
-def sentence(words: str) -> str:
-    """Words as a sentence: with a capital and a full stop."""
-    return f"{words[:1].upper()}{words[1:]}{'' if words.endswith('.') else '.'}"
+def _listed(kind: str, numbers: tuple[int, ...]) -> str:
+    return phrase(ONE[kind], number=numbers[0]) if len(numbers) == 1 else phrase(MANY[kind], n=len(numbers))
 
 
 def _button(title: str, key: str, tip: str, clicked: Callable[[], None]) -> QPushButton:
-    button = QPushButton(title)
+    button = QPushButton(tr(title))
     button.setFont(type_face(12))
     button.setStyleSheet(sized("padding: 4px 0"))
     button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-    button.setAccessibleName(title)
-    button.setToolTip(f"{tip} ({key})" if key else tip)
+    button.setAccessibleName(tr(title))
+    button.setToolTip(f"{tr(tip)} ({key})" if key else tr(tip))
     button.clicked.connect(lambda: clicked())
     return button

@@ -40,7 +40,7 @@ SIZES = {
     "1440 × 1080": (1440, 1080),
     "1080 × 1080": (1080, 1080),
 }
-PACES = {"Half as fast": 0.5, "As usual": 1.0, "Half as fast again": 1.5, "Twice as fast": 2.0}
+PACES = {0.5: "Half as fast", 1.0: "As usual", 1.5: "Half as fast again", 2.0: "Twice as fast"}
 
 GRACE = 4000
 """Milliseconds that a process is given to clear up after itself."""
@@ -62,7 +62,7 @@ class ExportDialog(QDialog):
         )
         self.pixels.setEditable(True)
         self.background = _choice("Background", "What is behind the picture", {b: b.capitalize() for b in BACKGROUNDS})
-        self.pace = _choice("Pace", "How fast a film plays", {pace: name for name, pace in PACES.items()})
+        self.pace = _choice("Pace", "How fast a film plays", PACES)
         self.limit = QCheckBox(tr("On the limit surface"))
         self.limit.setAccessibleName(tr("On the limit surface"))
         self.limit.setToolTip(tr("Push the vertices of the mesh to where they tend"))

@@ -18,13 +18,15 @@ from app.gui.vectors import Vectors
 from app.gui.worker import Worker
 from app.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, titled
 from app.state import State
+from app.words import tr
 from subdivision import Boundary, Topology, TopologyError, shapes
 from subdivision.catalogue import FAMILIES, Family, Parameter, Value, suiting
+from subdivision.words import phrase
 
 LIGHT = 6_000
 """Up to so many faces a change is worked out at once."""
 
-BOUNDARIES = tuple((b.value.replace("-", " ").capitalize(), b) for b in Boundary)
+BOUNDARIES = tuple((b.value.replace("-", " "), b) for b in Boundary)
 
 
 class Laboratory(QWidget):
@@ -37,8 +39,8 @@ class Laboratory(QWidget):
         self.panes: list[Pane] = []
         self.shape = Choice("Object", self._take)
         self.levels = Stepper("levels", self._turn_levels)
-        self.more = QPushButton("Compare with …")
-        self.more.setToolTip("Another scheme, telling or rule beside it")
+        self.more = QPushButton(tr("Compare with …"))
+        self.more.setToolTip(tr("Another scheme, telling or rule beside it"))
         self.more.clicked.connect(lambda: self.wish(bench.compare))
         rules = QWidget()
         self._column = QVBoxLayout(rules)
@@ -173,7 +175,7 @@ class Pane(QWidget):
         values = {p.name: v for p, v in zip(FAMILIES[rule.family].parameters, rule.values, strict=True)}
         for parameter, stepper in self.parameters:
             _show_parameter(stepper, parameter, values[parameter.name])
-        self.telling.show_values([(t[:1].upper() + t[1:], t) for t in rule.scheme.tellings], rule.told)
+        self.telling.show_values([(t, t) for t in rule.scheme.tellings], rule.told)
         self.boundary.show_values(BOUNDARIES, rule.boundary)
 
 
@@ -187,13 +189,13 @@ def _numbered(number: int, drop: Callable[[], None]) -> QWidget:
     """The pane's number, and a button that takes it away."""
     close = QToolButton()
     close.setText("×")
-    close.setToolTip("Take this pane away")
-    close.setAccessibleName(f"Take pane {number + 1} away")
+    close.setToolTip(tr("Take this pane away"))
+    close.setAccessibleName(tr(phrase("Take pane {n} away", n=number + 1)))
     close.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     close.clicked.connect(lambda: drop())
     found = QWidget()
     row = QHBoxLayout(found)
     row.setContentsMargins(0, px(GRID / 2), 0, 0)
-    row.addWidget(QLabel(f"Pane {number + 1}"), 1)
+    row.addWidget(QLabel(tr(phrase("Pane {n}", n=number + 1))), 1)
     row.addWidget(close)
     return found

@@ -14,9 +14,11 @@ from app.draw.theme import THEMES, mixed
 from app.gui.look import GRID, colour, fine, line_of, px, type_face
 from app.gui.session import Session
 from app.state import State
+from app.words import tr
 from subdivision import Role
 from subdivision.catalogue import Vectors
 from subdivision.passes import Vector
+from subdivision.words import phrase
 
 SIDE = 168
 """Height of the widget in pixels at 100 %, and how wide the lattice is at most."""
@@ -57,8 +59,8 @@ class Lattice(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
-        self.setAccessibleName("Vectors on the lattice")
-        self.setToolTip(HELP)
+        self.setAccessibleName(tr("Vectors on the lattice"))
+        self.setToolTip(tr(HELP))
 
     def show_state(self, state: State) -> None:
         vectors = boxlab.numbered(state.lab.rules[0]) if state.lab is not None else ()
@@ -100,8 +102,10 @@ class Lattice(QWidget):
 
     def _tell(self) -> None:
         times = self._vectors.count(self.ring)
-        said = {0: "no vector", 1: "a vector"}.get(times, f"a vector {times} times")
-        self.setAccessibleDescription(f"at ({self.ring[0]},{self.ring[1]}): {said}")
+        a, b = self.ring
+        some = "at ({a},{b}): a vector" if times == 1 else "at ({a},{b}): a vector {n} times"
+        words = some if times else "at ({a},{b}): no vector"
+        self.setAccessibleDescription(tr(phrase(words, a=a, b=b, n=times)))
 
     def _number(self, vector: Vector) -> int | None:
         """The last pass along a vector, else the one that quadrupling uses up."""

@@ -8,8 +8,10 @@ from app.draw.lattice import over_one, shade
 from app.draw.theme import THEMES, mixed
 from app.gui.look import GRID, colour, fine, px, type_face
 from app.gui.session import Session
+from app.words import tr
 from subdivision.catalogue import Vectors
 from subdivision.continuity import mask
+from subdivision.words import phrase
 
 ROW = 20
 """Height of a row in pixels at 100 %."""
@@ -36,7 +38,7 @@ class MaskTable(QWidget):
 
     def show_vectors(self, vectors: Vectors) -> None:
         rows, below = over_one(mask(vectors))
-        self._head.setText(f"Mask × 1/{below}" if below > 1 else "Mask")
+        self._head.setText(tr(phrase("Mask × 1/{below}", below=below)) if below > 1 else tr("Mask"))
         self.cells.show_rows(rows)
         self._scroll.setFixedHeight(px(ROW) * len(rows) + px(GRID))
         self.setAccessibleName(self._head.text())

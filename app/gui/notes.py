@@ -9,6 +9,8 @@ from app.draw.theme import THEMES
 from app.gui.look import GRID, colour, px
 from app.gui.parts import gap, heading
 from app.state import State
+from app.words import tr
+from subdivision.words import phrase
 
 
 class Notes(QWidget):
@@ -29,9 +31,10 @@ class Notes(QWidget):
     def show_state(self, state: State) -> None:
         muted = colour(THEMES[state.options.theme].muted).name()
         ours = state.lesson.ours
+        remark = phrase("Not in the lecture: {remark}", remark=ours)
         parts = [
-            f"<p>{escape(state.now.notes)}</p>" if state.now.notes else "",
-            f'<p style="color:{muted}">Not in the lecture: {escape(ours)}</p>' if ours else "",
+            f"<p>{escape(tr(state.now.notes))}</p>" if state.now.notes else "",
+            f'<p style="color:{muted}">{escape(tr(remark))}</p>' if ours else "",
         ]
         self.words.setText("".join(parts))
         self.setVisible(any(parts))

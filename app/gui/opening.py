@@ -7,6 +7,7 @@ from app.gui.banner import Banner
 from app.gui.session import Session
 from app.gui.worker import Worker
 from app.opening import Opening, opening
+from subdivision.words import phrase
 
 
 class Opener(Worker):
@@ -25,7 +26,7 @@ class Opener(Worker):
 
         self.start(
             lambda: opening(file), done, self._banner.say,
-            waiting=f"Reading {file.name} …",
-            too_large=f"{file.name} is too large for this computer's memory.",
-            broken=f"{file.name} could not be opened; the log has the details.",
+            waiting=phrase("Reading {name} …", name=file.name),
+            too_large=phrase("{name} is too large for this computer's memory.", name=file.name),
+            broken=phrase("{name} could not be opened; the log has the details.", name=file.name),
         )  # fmt: skip

@@ -5,6 +5,7 @@ from PySide6.QtGui import QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QLabel, QVBoxLayout, QWidget
 
 from app.gui.look import fine, px, type_face
+from app.words import tr
 
 
 def column(*parts: QWidget, stretched: QWidget | None = None) -> QWidget:
@@ -20,7 +21,7 @@ def column(*parts: QWidget, stretched: QWidget | None = None) -> QWidget:
 
 def heading(text: str) -> QLabel:
     """The name of a part of a panel."""
-    label = QLabel(text)
+    label = QLabel(tr(text))
     label.setFont(type_face(12, QFont.Weight.DemiBold))
     label.setContentsMargins(0, 0, 0, px(4))
     return label
@@ -46,13 +47,13 @@ class Head(QAbstractButton):
 
     def __init__(self, title: str) -> None:
         super().__init__()
-        self.setText(title)
+        self.setText(tr(title))
         self.setCheckable(True)
         self.setChecked(True)
         self.setFont(type_face(12, QFont.Weight.DemiBold))
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.setToolTip("Fold away or unfold")
-        self.setAccessibleName(title)
+        self.setToolTip(tr("Fold away or unfold"))
+        self.setAccessibleName(tr(title))
 
     def sizeHint(self) -> QSize:
         return QSize(px(120), px(24))

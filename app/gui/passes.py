@@ -11,8 +11,10 @@ from app import boxlab
 from app.gui.look import px, type_face
 from app.gui.session import Session
 from app.state import State
+from app.words import tr
 from subdivision.catalogue import Vectors
 from subdivision.passes import spelled
+from subdivision.words import phrase
 
 ROW, MOST = 24, 9
 """Height of a row in pixels at 100 %, and how many rows are seen at once."""
@@ -34,8 +36,8 @@ class Passes(QListWidget):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName("Passes in their order")
-        self.setToolTip("Drag a pass up or down; keys: Alt+↑ and Alt+↓ move it, Delete removes it")
+        self.setAccessibleName(tr("Passes in their order"))
+        self.setToolTip(tr("Drag a pass up or down; keys: Alt+↑ and Alt+↓ move it, Delete removes it"))
 
     def show_state(self, state: State) -> None:
         passes = state.lab.rules[0].passes if state.lab is not None else ()
@@ -51,8 +53,8 @@ class Passes(QListWidget):
     def _fill(self, passes: Vectors) -> None:
         here = self.currentRow()
         self.clear()
-        for text in ("quadruple", *(f"average {spelled(v)}" for v in passes)):
-            item = QListWidgetItem(f"{self.count() + 1}  {text}")
+        for text in ("quadruple", *(phrase("average {vector}", vector=spelled(v)) for v in passes)):
+            item = QListWidgetItem(f"{self.count() + 1}  {tr(text)}")
             item.setFont(type_face(14))
             item.setSizeHint(QSize(0, px(ROW)))
             self.addItem(item)

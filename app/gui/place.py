@@ -5,6 +5,8 @@ from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QSizePolicy, QWidget
 from app.gui.look import px
 from app.gui.session import Session
 from app.state import State, drag
+from app.words import tr
+from subdivision.words import phrase
 
 MOST = 1e6
 
@@ -26,7 +28,7 @@ class Place(QWidget):
             box.setKeyboardTracking(False)
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             box.setAccessibleName(name)
-            box.setToolTip(f"{name}: type a number, Enter; or ↑ and ↓")
+            box.setToolTip(tr(phrase("{name}: type a number, Enter; or ↑ and ↓", name=name)))
             box.valueChanged.connect(self._typed)
             row.addWidget(box)
         self._shown: tuple[float, ...] = ()

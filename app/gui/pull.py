@@ -10,9 +10,11 @@ from PySide6.QtWidgets import QAbstractSlider, QSizePolicy
 
 from app.draw.theme import THEMES, Theme, mixed
 from app.gui.look import colour, fine, line_of, px, type_face
+from app.words import tr
 from subdivision.catalogue import Parameter
 from subdivision.extraordinary import EQUAL, Special
 from subdivision.smoothness import Between
+from subdivision.words import phrase
 
 TRACK, ROW, INSET = 14.0, 15.0, 9.0
 """Where the track is below the top, how high a row of names is, how far from either side the track ends; at 100 %."""
@@ -66,8 +68,8 @@ class PullSlider(QAbstractSlider):
         self._track: Track | None = None
         self.places: Sequence[Fraction] = ()
         self.setOrientation(Qt.Orientation.Horizontal)
-        self.setAccessibleName("Pull")
-        self.setToolTip("How far of the way to the centroid of the centroids an extraordinary vertex goes (← →)")
+        self.setAccessibleName(tr("Pull"))
+        self.setToolTip(tr("How far of the way to the centroid of the centroids an extraordinary vertex goes (← →)"))
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -81,7 +83,7 @@ class PullSlider(QAbstractSlider):
         self.setPageStep(8)
         self.setValue(self.places.index(here))
         self.blockSignals(False)
-        self.setAccessibleDescription(f"{here} of the way")
+        self.setAccessibleDescription(tr(phrase("{part} of the way", part=here)))
         self.setFixedHeight(px(TRACK + 14 + ROW * len(track.names)))
         self.update()
 
@@ -159,7 +161,7 @@ class PullSlider(QAbstractSlider):
         painter.setPen(QPen(colour(theme.muted), fine(1)))
         tall, edge = fine(ROW), fine(2)
         top, names = fine(TRACK + 8), track.names[::-1]
-        rows = [(self.x_of(pull), top + row * tall, name) for row, (pull, name) in enumerate(names)]
+        rows = [(self.x_of(pull), top + row * tall, tr(name)) for row, (pull, name) in enumerate(names)]
         for x, y, _ in rows:
             painter.drawLine(QPointF(x, fine(TRACK + 3)), QPointF(x, y + tall / 2))
         painter.setPen(colour(theme.ink))

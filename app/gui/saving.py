@@ -9,6 +9,7 @@ from PySide6.QtGui import QImage, QOpenGLContext
 
 from app.draw.picture import Picture
 from subdivision.files.saving import save as write
+from subdivision.words import phrase
 
 WIDTH = 1920
 """Pixels: a saved picture is at least so wide, and at least twice as fine as on the screen."""
@@ -31,12 +32,19 @@ def save(picture: Picture, path: Path, seen: QSize) -> Path:
     path = path if path.suffix else path.with_suffix(".png")
     if path.suffix.lower() not in SUFFIXES:
         raise SavingError(
-            f"Pictures end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}, not in {path.suffix}: choose another name."
+            phrase(
+                "Pictures end in {names} or {last}, not in {suffix}: choose another name.",
+                names=", ".join(SUFFIXES[:-1]),
+                last=SUFFIXES[-1],
+                suffix=path.suffix,
+            )
         )
     try:
         write(path, [_WRITERS[path.suffix.lower()](picture, seen)])
     except OSError as fault:
-        raise SavingError(f"{path} could not be written ({fault.strerror}): choose another folder.") from fault
+        raise SavingError(
+            phrase("{path} could not be written ({reason}): choose another folder.", path=path, reason=fault.strerror)
+        ) from fault
     return path
 
 

@@ -8,6 +8,7 @@ from app.draw.theme import THEMES, mixed
 from app.gui.look import GRID, colour, fine, line_of, px, type_face
 from app.gui.session import Session
 from app.state import State, toggle
+from app.words import tr
 
 SHOWN = (
     ("surface", "Surface", "U"),
@@ -53,9 +54,9 @@ class Switch(QCheckBox):
     """A check box in the colours of the theme, with its key at the right."""
 
     def __init__(self, name: str, key: str, session: Session) -> None:
-        super().__init__(name)
+        super().__init__(tr(name))
         self._key, self._session = key, session
-        self.setToolTip(TIPS.get(name, f"{name} ({key})"))
+        self.setToolTip(tr(TIPS[name]) if name in TIPS else f"{tr(name)} ({key})")
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
 

@@ -16,9 +16,11 @@ from app.gui.session import Session
 from app.gui.stepper import Stepper
 from app.lab import Rule
 from app.state import VALENCES, State, turn_valence, valence_of
+from app.words import tr
 from subdivision import TopologyError
 from subdivision.catalogue import FAMILIES
 from subdivision.extraordinary import EQUAL, PULL_RULES, Analysis, Condition, analysis, pull_rule
+from subdivision.words import phrase
 
 
 class Spectrum(QWidget):
@@ -30,12 +32,12 @@ class Spectrum(QWidget):
         self.valence = Stepper("valence", lambda by: session.do(turn_valence, by))
         self.words, self.way = _label(), _label()
         self.slider = PullSlider(lambda: session.state.options.theme, self._pull, session.let_go)
-        self.vary = QPushButton("Let the vertex rule be varied")
+        self.vary = QPushButton(tr("Let the vertex rule be varied"))
         self.vary.setFont(type_face(12))
         self.vary.setStyleSheet(sized("padding: 4px 0"))
         self.vary.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.vary.setAccessibleName(self.vary.text())
-        self.vary.setToolTip("The same rule at this valence, with a slider for how far a vertex is pulled")
+        self.vary.setToolTip(tr("The same rule at this valence, with a slider for how far a vertex is pulled"))
         self.vary.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.vary.clicked.connect(lambda: wish(bench.vary_vertex_rule))
         column = QVBoxLayout(self)
@@ -58,7 +60,7 @@ class Spectrum(QWidget):
         try:
             self.words.setText(said(analysis(rule.scheme, n), theme))
         except TopologyError as refusal:
-            self.words.setText(f'<span style="color:{colour(theme.muted).name()}">{escape(str(refusal))}</span>')
+            self.words.setText(f'<span style="color:{colour(theme.muted).name()}">{escape(tr(str(refusal)))}</span>')
         is_varied = rule.family in PULL_RULES
         self.vary.setVisible(not is_varied and pull_rule(rule.scheme) is not None)
         self.slider.setVisible(is_varied)
@@ -72,9 +74,11 @@ class Spectrum(QWidget):
         track = Track(FAMILIES[rule.family].parameters[0], found.smooth(n), found.specials(n))
         self.slider.show_pull(track, Fraction(way))
         beta = f", β = {Fraction(way) * Fraction(3, 8 * n)}" if found.regular == 6 else ""
-        smooth = f"<br>C¹ between {decimals(float(track.smooth.least))} and {decimals(float(track.smooth.most))}"
+        least, most = decimals(float(track.smooth.least)), decimals(float(track.smooth.most))
+        smooth = tr(phrase("C¹ between {least} and {most}", least=least, most=most))
+        pull = tr(phrase("Pull = {way}", way=f"<b>{way}</b>"))
         is_regular = n == found.regular
-        self.way.setText("Regular: always all the way." if is_regular else f"Pull = <b>{way}</b>{beta}{smooth}")
+        self.way.setText(tr("Regular: always all the way.") if is_regular else f"{pull}{beta}<br>{smooth}")
 
     def _pull(self, way: Fraction) -> None:
         self._wish(bench.pull, way)
@@ -83,7 +87,7 @@ class Spectrum(QWidget):
 def said(found: Analysis, theme: Theme) -> str:
     """The eigenvalues mode by mode, and what follows from them."""
     muted = colour(theme.muted).name()
-    ring = found.subdominant
+    ring, mode = found.subdominant, escape(tr(phrase("mode")))
     rows = "".join(
         f'<tr><td style="color:{muted}; padding-right:{px(8)}px">{escape(_mode(k))}</td>'
         f'<td align="right">{values}</td></tr>'
@@ -91,7 +95,7 @@ def said(found: Analysis, theme: Theme) -> str:
     )
     return (
         f"<p>λ = {decimals(ring)}<br>λ² = {decimals(ring**2)}</p>"
-        f"<table cellspacing='{px(1)}'><tr><td style='color:{muted}'>mode</td><td></td></tr>{rows}</table>"
+        f"<table cellspacing='{px(1)}'><tr><td style='color:{muted}'>{mode}</td><td></td></tr>{rows}</table>"
         + "".join(_verdict(c, muted) for c in found.conditions)
     )
 
@@ -106,8 +110,9 @@ def _mode(k: int) -> str:
 
 
 def _verdict(c: Condition, muted: str) -> str:
-    holds = f" {'holds' if c.holds else 'fails'}: " if c.name == "C¹" else ": "
-    return f'<p><b>{c.name}</b>{holds}{escape(c.word)}<br><span style="color:{muted}">{escape(c.why)}</span></p>'
+    verdict = "{name}: {word}" if c.name != "C¹" else "{name} holds: {word}" if c.holds else "{name} fails: {word}"
+    words = tr(phrase(verdict, name=f"<b>{c.name}</b>", word=escape(tr(c.word))))
+    return f'<p>{words}<br><span style="color:{muted}">{escape(tr(c.why))}</span></p>'
 
 
 def decimals(value: float) -> str:

@@ -6,6 +6,8 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
 from app.gui.look import GRID, px, type_face
+from app.words import headed, tr
+from subdivision.words import phrase
 
 
 class Stepper(QWidget):
@@ -16,13 +18,13 @@ class Stepper(QWidget):
         self._value = QLabel(alignment=Qt.AlignmentFlag.AlignCenter)
         self._value.setFont(type_face(16))
         self._value.setMinimumWidth(px(3 * GRID))
-        self.less, self.more = _button("−", f"Less {name}", keys[0]), _button("+", f"More {name}", keys[1])
+        self.less, self.more = _button("−", "Less {name}", name, keys[0]), _button("+", "More {name}", name, keys[1])
         self.less.clicked.connect(lambda: step(-1))
         self.more.clicked.connect(lambda: step(1))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(px(GRID / 4))
-        words = QLabel(f"{name[:1].upper()}{name[1:]}")
+        words = QLabel(headed(tr(name)))
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)  # never widens the panel
         row.addWidget(words, 1)
         for part in (self.less, self._value, self.more):
@@ -34,7 +36,8 @@ class Stepper(QWidget):
         self.more.setEnabled(not is_most)
 
 
-def _button(sign: str, name: str, keys: str) -> QToolButton:
+def _button(sign: str, what: str, of: str, keys: str) -> QToolButton:
+    name = tr(phrase(what, name=of))
     button = QToolButton()
     button.setText(sign)
     button.setFont(type_face(16))

@@ -8,6 +8,8 @@ from app.gui.look import GRID, px
 from app.gui.session import Session
 from app.gui.shown import Switch
 from app.state import State, choose, toggle
+from app.words import tr
+from subdivision.words import phrase
 
 NEXT = "O"
 """The key that goes on to the next of the choices."""
@@ -27,7 +29,7 @@ class Surface(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self.shows = Choice("Surface shows", lambda kind: session.do(choose, surface_shows=kind))
-        self.shows.box.setToolTip(f"What the surface shows ({NEXT}: the next)")
+        self.shows.box.setToolTip(tr(phrase("What the surface shows ({key}: the next)", key=NEXT)))
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
@@ -35,7 +37,7 @@ class Surface(QWidget):
         column.addSpacing(px(GRID / 2))
         self.switches = {option: Switch(name, key, session) for option, name, key in SWITCHES}
         for option, switch in self.switches.items():
-            switch.setToolTip(TIPS[option])
+            switch.setToolTip(tr(TIPS[option]))
             switch.clicked.connect(lambda _, option=option: session.do(toggle, option))
             column.addWidget(switch)
 

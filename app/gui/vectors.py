@@ -18,9 +18,11 @@ from app.gui.passes import Passes
 from app.gui.session import Session
 from app.gui.shown import Switch
 from app.state import State, toggle
+from app.words import tr
 from subdivision import TopologyError
 from subdivision.catalogue import Vectors as VectorSet
 from subdivision.continuity import alpha, degree, promise, smoothness
+from subdivision.words import phrase
 
 RICH = Qt.TextFormat.RichText
 OWN = "Own vectors"
@@ -109,9 +111,11 @@ class Vectors(QWidget):
 
     def _tell(self, vectors: VectorSet) -> None:
         k = smoothness(vectors)
-        jumps = "jumps" if k < 0 else f"C<sup>{k}</sup>"
-        self.facts.setText(f"degree {degree(vectors)}&nbsp; alpha {alpha(vectors)}&nbsp; {jumps}")
-        self.promise.setText(re.sub(r"C\^(\d+)", r"C<sup>\1</sup>", promise(vectors)))
+        smooth = phrase("jumps") if k < 0 else f"C<sup>{k}</sup>"
+        numbers = {"degree": degree(vectors), "alpha": alpha(vectors), "smooth": smooth}
+        words = phrase("degree {degree}   alpha {alpha}   {smooth}", **numbers)
+        self.facts.setText(tr(words).replace("   ", "&nbsp; "))
+        self.promise.setText(re.sub(r"C\^(\d+)", r"C<sup>\1</sup>", tr(promise(vectors))))
         self.table.show_vectors(vectors)
 
     def _choose(self, name: str) -> None:
@@ -124,8 +128,8 @@ class Vectors(QWidget):
 
 
 def _button(name: str, tip: str) -> QPushButton:
-    button = QPushButton(name)
-    button.setToolTip(tip)
+    button = QPushButton(tr(name))
+    button.setToolTip(tr(tip))
     button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
     button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
     button.setStyleSheet(sized("padding-left: 4px; padding-right: 4px"))

@@ -31,6 +31,7 @@ from app.gui.pointing import nearest, part
 from app.gui.predicting import predicted
 from app.gui.session import Session
 from app.state import Picked, Spot, State, drag, is_turned_only, look, pick, put_back, turn_view
+from app.words import tr
 from lessons.turn import REST, Turn
 
 PANES = 6
@@ -52,7 +53,7 @@ class Viewport(QWidget):
 
     def __init__(self, session: Session) -> None:
         super().__init__()
-        self.setAccessibleName("Picture")
+        self.setAccessibleName(tr("Picture"))
         self.setMinimumSize(320, 240)
         self._session = session
         self._state = session.state
@@ -90,7 +91,7 @@ class Viewport(QWidget):
             self, auto_update=False, multi_samples=0, shape=(1, PANES + 1), border=False, lighting="none"
         )
         self._plotter.setAcceptDrops(False)
-        self._plotter.setAccessibleName("Picture")
+        self._plotter.setAccessibleName(tr("Picture"))
         self._plotter.installEventFilter(self)
         self._painters = [ScenePainter(self._plotter, 1 + k) for k in range(PANES)]
         self._plotter.renderers[0].SetViewport(0, 0, 1, 1)  # clears what no pane covers

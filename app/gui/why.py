@@ -14,9 +14,11 @@ from app.gui.look import GRID, colour, px, type_face
 from app.gui.place import Place
 from app.gui.session import Session
 from app.state import State, level_of
+from app.words import headed, tr
 from lessons.script import View
 from subdivision import Role, Stencil, TopologyError
 from subdivision.exact import spelled, spelled_together
+from subdivision.words import phrase
 
 EMPTY = "Point at a vertex to see how it is made."
 FIRST = "A control point: it is given, not made."
@@ -75,25 +77,26 @@ class Why(QWidget):
         numbers = (topology.n_vertices, topology.n_edges, topology.n_faces or "–", euler)
         for (number, _), value in zip(self._counts, numbers, strict=True):
             number.setText((f"{value:,}" if isinstance(value, int) else str(value)).replace("-", "−"))
-        self._level.setText(f"Level {level_of(state)}")
+        self._level.setText(headed(tr(phrase("level {level}", level=level_of(state)))))
 
 
 def _explained(state: State, view: View, row: Pointed | None, muted: str) -> str:
     if row is None:
         words = EMPTY if state.focus is None else _refusal(state, view) or FIRST
-        return f'<span style="color:{muted}">{words}</span>'
+        return f'<span style="color:{muted}">{escape(tr(words), quote=False)}</span>'
     stencil = row.stencil
-    verb = "tends to" if row.place is not None else "is"
     rows = [
         f'<tr><td align="right" style="padding-right:{px(12)}px"><b>{escape(weight)}</b></td>'
         f'<td style="padding-right:{px(12)}px; color:{muted}">×</td><td>{escape(points)}</td></tr>'
         for weight, points in grouped(stencil)
     ]
+    sentence = "{point} is the sum of" if row.place is None else "{point} tends to the sum of"
+    made = tr(phrase(sentence, point=f"<b>{_named(state, view, row)}</b>"))
     total = sum((w for _, w in stencil.terms), start=0 * stencil.terms[0][1])
     return (
-        f"<p><b>{_named(state, view, row)}</b> {verb} the sum of</p>"
+        f"<p>{made}</p>"
         f"<table cellspacing='{px(2)}'>{''.join(rows)}</table>"
-        f'<p style="color:{muted}">The weights sum to {escape(spelled(total))}.</p>'
+        f'<p style="color:{muted}">{escape(tr(phrase("The weights sum to {total}.", total=spelled(total))))}</p>'
     )
 
 
@@ -119,9 +122,9 @@ def grouped(stencil: Stencil) -> list[tuple[str, str]]:
 
 def _listed(parents: list[int]) -> str:
     words = ", ".join(f"v{p}" for p in parents[:MOST])
-    return words if len(parents) <= MOST else f"{words} and {len(parents) - MOST} more"
+    return words if len(parents) <= MOST else tr(phrase("{words} and {n} more", words=words, n=len(parents) - MOST))
 
 
 def _named(state: State, view: View, row: Pointed) -> str:
     role = Role(int(state.trace(view).roles_at(row.stage)[row.stencil.point]))
-    return f"v{row.stencil.point} ({NAMES[role]})"
+    return f"v{row.stencil.point} ({tr(NAMES[role])})"

@@ -56,6 +56,7 @@ from app.gui.shown import Shown
 from app.gui.spectrum import Spectrum
 from app.gui.surface import Surface
 from app.gui.timeline import Timeline, tool_button
+from app.gui.tongue import speak_everywhere
 from app.gui.viewport import Viewport
 from app.gui.why import Why
 from app.gui.worker import Worker
@@ -65,7 +66,7 @@ from app.opening import OPENABLE
 from app.report import apart
 from app.state import State, choose, pick
 from app.strict import KeepingError
-from app.words import SYSTEM, language, speak, system_language, tr
+from app.words import SYSTEM, language, system_language, tr
 from subdivision.words import phrase
 
 NAME = "Subdivision Studio"
@@ -88,7 +89,7 @@ class Window(QMainWindow):
 
     def __init__(self, session: Session, settings: QSettings) -> None:
         super().__init__()
-        speak(session.state.options.language)
+        speak_everywhere(session.state.options.language)
         self.session, self.settings = session, settings
         self._scale, self._wide = session.state.options.scale, {name: float(wide) for name, wide in WIDE.items()}
         rescale(self._scale)
@@ -121,7 +122,7 @@ class Window(QMainWindow):
 
     def show_state(self, state: State) -> None:
         if state.options.language != language():
-            speak(state.options.language)
+            speak_everywhere(state.options.language)
             self.furnish()
             return
         if state.options.scale != self._scale:

@@ -30,6 +30,8 @@ from app.draw.type import measure, runs
 from app.draw.vector import traced
 from app.page.record import Record
 from app.page.tables import EM
+from app.words import language, tr
+from subdivision.words import phrase
 
 HERE = Path(__file__).parent
 SCRIPTS = ("space.js", "surface.js", "flat.js", "scene.js", "record.js", "picture.js", "player.js", "page.js")
@@ -44,8 +46,9 @@ BUTTONS = (
 """Id, what it does, and its icons."""
 
 KEYS = (
-    ("Space", "play, pause"), ("→ ← or Page Down, Page Up", "a step forward, back"), ("Home, End", "first, last step"),
-    ("Shift + arrows, or drag", "turn"), ("Shift + drag, or two fingers", "move"), ("+ − or the wheel", "zoom"),
+    (phrase("Space"), "play, pause"), ("→ ← or Page Down, Page Up", "a step forward, back"),
+    ("Home, End", "first, last step"), ("Shift + arrows, or drag", phrase("turn")),
+    ("Shift + drag, or two fingers", phrase("move")), ("+ − or the wheel", phrase("zoom")),
     ("R, or double click", "as it was"),
 )  # fmt: skip
 
@@ -54,20 +57,20 @@ def page(recorded: Record) -> bytes:
     """The bytes of the file."""
     lesson = recorded.state.lesson
     style, script = _style(), _script()
-    title = " ".join(lesson.title.split())
+    title = " ".join(tr(lesson.title).split())
     policy = (
         f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; img-src data:; "
         "base-uri 'none'; form-action 'none'"
     )
     parts = [
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">',
+        f'<!DOCTYPE html>\n<html lang="{language()}">\n<head>\n<meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<meta name="color-scheme" content="light dark">',
         '<meta name="generator" content="Subdivision Studio">',
         f"<title>{escape(title)}</title>",
         f"<style>{style}</style>\n</head>\n<body>",
-        *_player(lesson.title, len(recorded.captions)),
+        *_player(tr(lesson.title), len(recorded.captions)),
         *_below(recorded),
         f'<script type="application/octet-stream" id="lesson">{_packed(recorded)}</script>',
         f"<script>{script}</script>\n</body>\n</html>\n",
@@ -82,19 +85,19 @@ def _player(title: str, steps: int) -> Iterator[str]:
     """The picture, and what is round it: filled by the script."""
     yield '<main class="player">'
     yield f'<header><h1>{escape(title).replace("  ", "&ensp;")}</h1><p id="corner"></p></header>'
-    yield '<div id="stage" tabindex="0" role="group" aria-label="Picture: drag to turn it">'
+    yield f'<div id="stage" tabindex="0" role="group" aria-label="{_said("Picture: drag to turn it")}">'
     yield '<canvas id="picture" role="img"></canvas></div>'
-    yield '<ul id="legend" aria-label="What the points are"></ul>'
+    yield f'<ul id="legend" aria-label="{_said("What the points are")}"></ul>'
     yield '<div id="words" aria-live="polite">'
-    yield "<noscript>The picture needs JavaScript; the steps are below.</noscript></div>"
-    yield '<nav aria-label="Steps">'
+    yield f"<noscript>{_said('The picture needs JavaScript; the steps are below.')}</noscript></div>"
+    yield f'<nav aria-label="{_said("Steps")}" data-step="{_said("Step {number} of {total}")}">'
     for id_, name, icons in BUTTONS:
         drawn = "".join(_icon(icon) for icon in icons)
-        yield f'<button id="{id_}" type="button" title="{name}" aria-label="{name}">{drawn}</button>'
-    yield f'<input id="slider" type="range" min="1" max="{steps}" value="1" aria-label="Step">'
+        yield f'<button id="{id_}" type="button" title="{_said(name)}" aria-label="{_said(name)}">{drawn}</button>'
+    yield f'<input id="slider" type="range" min="1" max="{steps}" value="1" aria-label="{_said("Step")}">'
     yield '<span id="count"></span>'
-    yield '<button id="reset" type="button" title="The view as it was">Reset view</button>'
-    yield '<button id="theme" type="button">Light or dark</button>'
+    yield f'<button id="reset" type="button" title="{_said("The view as it was")}">{_said("Reset view")}</button>'
+    yield f'<button id="theme" type="button">{_said("Light or dark")}</button>'
     yield "</nav>\n</main>"
 
 
@@ -107,20 +110,26 @@ def _icon(name: str) -> str:
 def _below(recorded: Record) -> Iterator[str]:
     """Every step in words, with formulas and notes; then what is ours, and the keys."""
     stops, beats = recorded.told["stops"], recorded.state.lesson.beats
-    yield '<div class="below">\n<h2 class="printless">All steps</h2>\n<ol id="steps">'
+    yield f'<div class="below">\n<h2 class="printless">{_said("All steps")}</h2>\n<ol id="steps">'
     for k, (light, dark) in enumerate(recorded.captions):
         beat = beats[stops[k]["beat"]]
+        going = escape(tr(phrase("Go to step {number}", number=k + 1)))
         ends = k + 1 == len(stops) or stops[k + 1]["beat"] != stops[k]["beat"]
-        yield f'<li><a class="printless" href="#step={k + 1}" aria-label="Go to step {k + 1}">Show</a>'
+        yield f'<li><a class="printless" href="#step={k + 1}" aria-label="{going}">{_said("Show")}</a>'
         yield f'<p class="caption">{_themed(light, dark)}</p>'
         yield f'<p class="formula">{_words(_tall(beat.formula))}</p>' if beat.formula else ""
-        yield f'<p class="notes">{_words(beat.notes)}</p>' if beat.notes and ends else ""
+        yield f'<p class="notes">{_words(tr(beat.notes))}</p>' if beat.notes and ends else ""
         yield "</li>"
     yield "</ol>"
     if recorded.state.lesson.ours:
-        yield f"<h2>Not in the lecture</h2>\n<p>{_words(recorded.state.lesson.ours)}</p>"
-    keys = "; ".join(f"<kbd>{escape(key)}</kbd> {escape(does)}" for key, does in KEYS)
-    yield f"<footer><p>{keys}.</p><p>Made by Subdivision Studio.</p></footer>\n</div>"
+        yield f"<h2>{_said('Not in the lecture')}</h2>\n<p>{_words(tr(recorded.state.lesson.ours))}</p>"
+    keys = "; ".join(f"<kbd>{_said(key)}</kbd> {_said(does)}" for key, does in KEYS)
+    yield f"<footer><p>{keys}.</p><p>{_said('Made by Subdivision Studio.')}</p></footer>\n</div>"
+
+
+def _said(text: str) -> str:
+    """Words of the page in its language."""
+    return escape(tr(text))
 
 
 def _themed(light: str, dark: str) -> str:

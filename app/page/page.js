@@ -36,6 +36,12 @@ function draw(fine) {
 
 let told = "", legendTold = "";
 
+/** "Step 3 of 9", in the page's language. */
+function spokenStep(number) {
+  const words = document.querySelector("nav").dataset.step;
+  return words.replace("{number}", number + 1).replace("{total}", lesson.stops.length);
+}
+
 /** The words that belong to what is shown. */
 function tell({ still, corner, legend }) {
   const number = lesson.stops.indexOf(still);
@@ -48,10 +54,10 @@ function tell({ still, corner, legend }) {
   told = key;
   const item = steps()[number];
   $("words").replaceChildren(...[...item.querySelectorAll(".caption, .formula")].map((each) => each.cloneNode(true)));
-  $("picture").setAttribute("aria-label", `Step ${number + 1} of ${lesson.stops.length}: ${lesson.captions[number]}`);
+  $("picture").setAttribute("aria-label", `${spokenStep(number)}: ${lesson.captions[number]}`);
   $("count").textContent = `${number + 1} / ${lesson.stops.length}`;
   $("slider").value = number + 1;
-  $("slider").setAttribute("aria-valuetext", `step ${number + 1} of ${lesson.stops.length}`);
+  $("slider").setAttribute("aria-valuetext", spokenStep(number));
   $("first").disabled = $("back").disabled = number === 0;
   $("forward").disabled = $("last").disabled = number === lesson.stops.length - 1;
   steps().forEach((each, k) => each.toggleAttribute("aria-current", k === number));

@@ -13,6 +13,7 @@ from subdivision.limit_nets import box_weights, net_limit
 from subdivision.passes import Pass, Vector, at_once, average, quadruple, room, told
 from subdivision.rows import Connectivity, Grid
 from subdivision.scheme import Scheme
+from subdivision.words import phrase
 
 THREE_DIRECTION_LINEAR = ((1, 0), (0, 1), (1, 1))
 THREE_DIRECTION_QUARTIC = THREE_DIRECTION_LINEAR * 2
@@ -32,7 +33,7 @@ def box_spline(vectors: Sequence[Vector]) -> Scheme:
     passes: list[Pass] = [quadruple, *map(average, rest)]
     return Scheme(
         name="box-spline " + " ".join(f"{a},{b}" for a, b in chosen),
-        title="Box spline of " + " ".join(f"({a},{b})" for a, b in chosen),
+        title=phrase("Box spline of {vectors}", vectors=" ".join(f"({a},{b})" for a, b in chosen)),
         paper="WW02",
         refuses=partial(_refuses, lost=shortened(chosen)),
         tellings={

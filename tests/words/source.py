@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 HOUSE = Path(__file__).parents[2]
 
-SAID = {"tr", "phrase"}
+SAID = {"tr", "phrase", "_said"}
 """Functions whose first argument is said."""
 
 SHOWN = {"Choice", "Stepper", "Section", "Place", "Number", "heading", "addMenu", "setToolTip", "setText"}

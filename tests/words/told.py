@@ -5,8 +5,11 @@ from collections.abc import Iterable, Iterator
 from itertools import product
 
 import lessons
+from app.boxlab import PRESETS
+from app.draw.surface import SHOWS
 from app.draw.theme import NAMES, THEMES
 from app.export.wish import FORMATS
+from app.figures import BACKGROUNDS
 from app.lab import SENTENCES, titled
 from lessons.script import Beat, Lesson, View
 from subdivision import Boundary, Grid, Mesh, Topology, shapes
@@ -66,7 +69,10 @@ def of_tables() -> Iterator[Text]:
     for file, texts in (
         ("app/export/wish.py", (kind.title for kind in FORMATS.values())),
         ("app/draw/theme.py", (*NAMES.values(), *(w for theme in THEMES.values() for w in theme.words.values()))),
-        ("app/draw/theme.py", ("yellow", *(name.capitalize() for name in THEMES))),
+        ("app/draw/theme.py", ("yellow", "System", *(name.capitalize() for name in THEMES))),
+        ("app/draw/surface.py", SHOWS.values()),
+        ("app/figures.py", (name.capitalize() for name in BACKGROUNDS)),
+        ("app/boxlab.py", PRESETS),
         ("app/lab.py", (*SENTENCES.values(), *(titled(name) for name in shapes.SHAPES))),
         ("subdivision/topology.py", (boundary.value.replace("-", " ") for boundary in Boundary)),
         ("subdivision/catalogue.py", _of_schemes()),
