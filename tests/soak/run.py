@@ -4,10 +4,12 @@ The actions come from stdin; the link is where they begin, else at the cube.
 The journal has every step before it is over, so that it tells where a process died.
 """
 
+import faulthandler
 import json
 import sys
 import tempfile
 import time
+import traceback
 from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, suppress
@@ -44,6 +46,9 @@ SAMPLE = 100
 
 PATIENCE = 180.0
 """Seconds that work beside the window may take."""
+
+STALLED = 60.0
+"""Seconds after which a step will never be over: the process is then ended where it is."""
 
 TOLD = 200
 """Actions between two lines about how it goes."""
@@ -89,7 +94,7 @@ class Run:
         self.dog = Watchdog(self.window)
         self.dog.__enter__()
         self._story: Iterator[Steps] = self._told()
-        self._steps: Steps | None = next(self._story)
+        self._steps: Steps = next(self._story)
         self._next = QTimer(interval=0, singleShot=True)
         self._next.timeout.connect(self._step)
         self._attending = QTimer(interval=20)
@@ -150,6 +155,7 @@ class Run:
     # -- the loop -------------------------------------------------------------------------------
 
     def _step(self) -> None:
+        faulthandler.dump_traceback_later(STALLED, exit=True)
         if self._is_busy():
             self._next.start(2)
             return
@@ -159,17 +165,26 @@ class Run:
             return
         self._watching = self.dog.during("")
         self._watching.__enter__()
-        said = next(self._steps, None)
-        if said is None:
-            self._see()
-            self._steps = next(self._story, None)
-            if self._steps is None:
-                self._finish()
-                return
+        try:
+            is_over = self._go_on()
+        except Exception:
+            self.faults.add(traceback.format_exc())
+            is_over = False
+        if is_over:
+            self._finish()
         else:
+            self._next.start(0)
+
+    def _go_on(self) -> bool:
+        """One step of the story; whether there is none."""
+        said = next(self._steps, None)
+        if said is not None:
             self._note(f"{self._what.partition(': ')[0]}: {said}")
             self.dog._what = said.partition(" at ")[0]
-        self._next.start(0)
+            return False
+        self._see()
+        self._steps = next(self._story, iter(()))
+        return self.report["done"] == len(self.actions)
 
     def _is_busy(self) -> bool:
         """Whether work goes on beside the window; too long is a fault."""
@@ -187,11 +202,10 @@ class Run:
         if self._watching is not None:
             self._watching.__exit__(None, None, None)
             self._watching = None
-        for gap in self.dog.gaps:
-            worst = self._worst.get(gap.stack)
-            count = (worst[1] if worst else 0) + 1
-            if gap.excess > 0.05 and gap.busy > 0.05:
-                self._worst[gap.stack] = (max(gap, worst[0], key=lambda g: g.excess) if worst else gap, count)
+        for gap in self.dog.blocks():
+            place = gap.stack or (gap.what,)
+            worst, count = self._worst.get(place, (gap, 0))
+            self._worst[place] = max(gap, worst, key=lambda each: each.excess), count + 1
         self.dog.gaps.clear()
 
     def _has_faults(self) -> bool:
@@ -203,6 +217,7 @@ class Run:
         return bool(found)
 
     def _finish(self) -> None:
+        faulthandler.cancel_dump_traceback_later()
         self._attending.stop()
         self.dog.__exit__(None, None, None)
         worst = sorted(self._worst.values(), key=lambda each: -each[0].excess)[:40]

@@ -53,7 +53,8 @@ def _dead(run: subprocess.CompletedProcess[str], actions: list[Action], journal:
     last = next((line for line in reversed(journal) if line[:1].isdigit()), "")
     numbers = [each.number for each in actions]
     done = numbers.index(int(last.split()[0])) if last else 0
-    said = f"the process died ({name})\n{run.stderr.strip()[-6000:]}"
+    lines = [line for line in run.stderr.splitlines() if line and not line.startswith("Extension modules")]
+    said = "\n".join([*lines[-60:], f"the process died ({name})"])
     return Report([{"at": journal[-1] if journal else "the start", "said": said}], done)
 
 
