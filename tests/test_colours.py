@@ -161,7 +161,7 @@ def test_roles_of_one_colour_are_those_the_lecture_gives_one_name():
 
 
 @pytest.mark.parametrize("name", THEMES)
-@pytest.mark.parametrize("ink", ["ink", "muted"])
+@pytest.mark.parametrize("ink", ["ink", "muted", "accent"])
 @pytest.mark.parametrize("ground", ["background", "panel"])
 def test_type_can_be_read(name, ink, ground):
     assert contrast(getattr(THEMES[name], ink), getattr(THEMES[name], ground)) >= READABLE

@@ -52,7 +52,7 @@ FRAME, ROUND = 7.0, 12.0
 APART = 1.4
 """Between the caption and the formula beside it, relative to the caption's size."""
 
-ROOM, STEPS = 0.5, 32
+ROOM, STEPS = 0.55, 32
 """Enlarged type leaves this part of the picture's height to the panes; it is fitted in so many steps."""
 
 LINE = 1.3

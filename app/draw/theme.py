@@ -90,7 +90,7 @@ class Theme:
 LIGHT = Theme(
     name="light",
     background=rgb("#FAF8F5"),
-    panel=rgb("#F1EEE9"),
+    panel=rgb("#F2EFEA"),
     ink=rgb("#1B1B1B"),
     muted=rgb("#5F5B55"),
     accent=BLUE,
@@ -166,10 +166,13 @@ def theme_of(lesson: Lesson, name: str, as_caption: bool) -> Theme:
 
 
 def enlarged(theme: Theme, scale: float) -> Theme:
-    """A theme at a scale: type grows with it, strokes and points with its root; none is smaller than can be read."""
+    """A theme at a scale: type grows with it; points less, and strokes least, for they would blacken a fine mesh.
+
+    Nothing is smaller than it can be read.
+    """
     growth = max(scale, 1.0)
-    heavy = growth**0.5
-    return replace(theme, stroke=theme.stroke * heavy, points=heavy, type=theme.type * growth, growth=growth)
+    stroke, type_ = theme.stroke * growth ** (1 / 3), theme.type * growth
+    return replace(theme, stroke=stroke, points=growth**0.5, type=type_, growth=growth)
 
 
 def _word(what: Meaning) -> str:

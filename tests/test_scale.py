@@ -1,0 +1,66 @@
+"""A picture at another scale: type grows as far as there is room, and is never smaller than it can be read."""
+
+from dataclasses import replace
+
+import pytest
+
+import lessons
+from app import keeping, link
+from app.draw.compose import compose
+from app.draw.layout import ROOM, overlay, pane_areas
+from app.draw.picture import Scene
+from app.draw.primitives import LEAST, Text
+from app.draw.theme import THEMES
+from app.state import Options, choose, last, start
+
+SIZES = [(1920, 1080), (1080, 1080)]
+EVERY = lessons.all_lessons()
+
+
+def at(lesson, scale):
+    return last(start(lesson, Options(scale=scale)))
+
+
+def type_sizes(state, size):
+    picture = compose(state)
+    return [each.size for each in overlay(picture, *size) if isinstance(each, Text)]
+
+
+def markers(state):
+    return [(m.name, float(m.radius.max())) for pane in compose(state).panes if isinstance(pane.content, Scene)
+            for m in pane.content.markers if len(m.radius)]
+
+
+@pytest.mark.parametrize("lesson", EVERY[::4], ids=lambda each: each.id)
+@pytest.mark.parametrize("size", SIZES)
+def test_type_grows_and_leaves_room(lesson, size):
+    usual, larger, largest = (type_sizes(at(lesson, scale), size) for scale in (1.0, 1.25, 2.5))
+    assert max(usual) < max(larger) <= 1.05 * max(largest)
+    assert sum(larger) > sum(usual)
+    assert min(usual + larger + largest) >= LEAST * size[1] / 1000 * 0.999
+    for scale in (1.0, 2.5):
+        areas = pane_areas(compose(at(lesson, scale)), *size)
+        top, bottom = min(y for _, y, _, _ in areas), max(y + h for _, y, _, h in areas)
+        assert bottom - top >= ROOM * size[1] - 2
+
+
+@pytest.mark.parametrize("lesson", EVERY[::6], ids=lambda each: each.id)
+def test_a_smaller_window_has_the_same_picture(lesson):
+    assert type_sizes(at(lesson, 0.75), SIZES[0]) == type_sizes(at(lesson, 1.0), SIZES[0])
+    assert compose(at(lesson, 0.75)).stroke == THEMES["light"].stroke
+    assert markers(at(lesson, 0.75)) == markers(at(lesson, 1.0))
+
+
+def test_points_and_strokes_grow():
+    usual, larger = (compose(at(lessons.find("14"), scale)) for scale in (1.0, 2.0))
+    assert larger.stroke > usual.stroke
+    before, after = (dict(markers(at(lessons.find("14"), scale))) for scale in (1.0, 2.0))
+    assert after["original"] > before["original"]
+
+
+def test_the_scale_is_the_readers_own():
+    state = at(lessons.find("14"), 2.0)
+    here = Options(scale=1.5)
+    assert keeping.restored(keeping.kept(state), here).options.scale == 1.5
+    assert keeping.taken_up(replace(state, options=here), state).options.scale == 1.5
+    assert link.link(state) == link.link(choose(state, scale=1.0))
