@@ -6,14 +6,14 @@ Nothing is painted: the result is a display list, so that a test can read "four 
 
 from contextlib import suppress
 from dataclasses import replace
-from functools import reduce
+from functools import lru_cache, reduce
 from itertools import accumulate, pairwise
 
 from app import asking
 from app.draw import asked, diagrams, distances, lattice, matrices, motion, spectrum, stencils, surface
 from app.draw.framing import camera
 from app.draw.limits import LIMIT_POINT
-from app.draw.picture import Colour, Diagram, Entry, Pane, Picture, Scene, Shape
+from app.draw.picture import Camera, Colour, Diagram, Entry, Pane, Picture, Scene, Shape
 from app.draw.pointed import Pointed, row_of
 from app.draw.scenes import CONTRIBUTOR, EXTRAORDINARY_NAME, scene
 from app.draw.selected import is_pickable, selected
@@ -23,8 +23,8 @@ from app.draw.turned import turned
 from app.state import Spot, State, level_of
 from app.words import speaking, tr
 from lessons.questions import Which
-from lessons.script import Beat, Kind, View
-from subdivision import Mesh, Polyline, Role, TopologyError
+from lessons.script import Beat, Kind, Look, View
+from subdivision import Mesh, Polyline, Role, TopologyError, Trace
 from subdivision.arrays import Floats
 from subdivision.words import joined, phrase
 
@@ -204,7 +204,7 @@ def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scen
     # of the trace as the lesson has it: dragging a point moves no camera
     what = surface.shown(state, view)
     is_as_told = what.framed is (view.framed or view.trace)
-    seen = camera(what.framed, what.look, _contributors(view) if is_as_told else None)
+    seen = _seen(what.framed, what.look, view if is_as_told else None)
     over = shown_mesh(state, view.over) if view.over is not None and is_as_told else None
     is_striped = view.isophotes or state.options.surface_shows in surface.STRIPED
     options = replace(state.options, net=False) if is_striped and trace.control.topology.n_faces else state.options
@@ -218,6 +218,12 @@ def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scen
     made = surface.dressed(made, what, frame, state, view, theme)
     made = replace(made, camera=reduce(turned, (view.look or state.now.look).turned, made.camera))
     return made, surface.values_of(state, view, what, frame)
+
+
+@lru_cache(maxsize=16)
+def _seen(trace: Trace, look: Look, view: View | None) -> Camera:
+    """From where a trace is seen, and what the ``view``'s own stencil reads, if there is one."""
+    return camera(trace, look, _contributors(view) if view is not None else None)
 
 
 def _contributors(view: View) -> Floats | None:

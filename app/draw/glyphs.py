@@ -75,7 +75,7 @@ class _Instances:
     def __init__(self, source: Callable[[int], Any], *, translucent: bool = False, rim: bool = False) -> None:
         self.data, self.mapper, self.actor = vtkPolyData(), vtkGlyph3DMapper(), vtkActor()
         self.mapper.SetInputData(self.data)
-        self.source = source
+        self.source, self._corners = source, 0
         self.model(FINE)
         self.mapper.SetScaleModeToScaleByMagnitude()
         self.mapper.SetScaleArray("radius")
@@ -97,7 +97,9 @@ class _Instances:
 
     def model(self, corners: int) -> None:
         """Draw each marker with so many corners to its outline."""
-        self.mapper.SetSourceData(self.source(corners))
+        if corners != self._corners:  # VTK would prepare the same solid again
+            self._corners = corners
+            self.mapper.SetSourceData(self.source(corners))
 
     def show(self, points: Floats, radius: Floats, colour: Floats) -> None:
         self.data.SetPoints(vtk_arrays.points(points))

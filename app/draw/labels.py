@@ -4,6 +4,8 @@ Each label takes the nearest free place round its point, first where it would li
 must go further is tied to its point by a thin line.
 """
 
+from dataclasses import dataclass
+from functools import cache
 from typing import TypeAlias
 
 import numpy as np
@@ -22,6 +24,12 @@ DIRECTIONS = np.array([
 
 RINGS = np.concatenate([np.arange(12) * 0.5, 6 + np.arange(14) * 2.0])
 """How much further off each round of places is, in heights of the label."""
+
+ROUNDS = np.split(RINGS, [2, 6, 14])
+"""Near places are tried first, for mostly one of them is free."""
+
+NEARER = 3.0
+"""What it costs to be further off, for each height of the label."""
 
 LEADER = 0.9
 """A label further off than this many of its heights needs a line to its point."""
@@ -63,19 +71,56 @@ def _best(
     tall = up + down
     here = discs[np.hypot(discs[:, 0] - at[0], discs[:, 1] - at[1]) < discs[:, 2]]
     clear = here[:, 2].max(initial=0.0) + 0.5 * max(*np.abs(label.away)) * unit
-    first = np.array(label.away) / max(*np.abs(label.away), 1e-9)
-    ways = np.vstack([first, DIRECTIONS]) if max(*np.abs(label.away)) else DIRECTIONS
-    rings, turn = (m.ravel() for m in np.meshgrid(RINGS, np.arange(len(ways)), indexing="ij"))
-    way = ways[turn]
-    # On the diagonal a corner of the box touches the marker, so it may come nearer than a side.
-    reach = clear * np.where(np.abs(way).min(axis=1) > 0.3, 0.75, 1.0) + rings * tall
-    off = way * [1, -1] * (reach[:, None] + np.array([wide, tall * 0.8]) / 2)
-    extent = np.tile([wide, tall], (len(way), 1))
-    boxes = np.hstack([np.array(at) + off - extent / 2, extent])
-    cost = rings * 3.0 + turn * 0.12 + 0.35 * np.minimum(_inside(boxes, strokes), 8)
-    cost += 1e3 * (_outside(boxes, area) + 4 * _overlaps(boxes, taken) + _covered(boxes, discs))
-    best = int(np.argmin(cost))
-    return boxes[best], float(rings[best])
+    least, found = np.inf, (np.zeros(4), 0.0)
+    for places in _rounds(label.away):
+        if least <= NEARER * places.ring[0]:
+            break  # whatever is further off costs more
+        boxes, room = places.boxes(at, wide, tall, clear)
+        marked = discs[(np.abs(discs[:, :2] - at) <= room + discs[:, 2:]).all(axis=1)]
+        stroked = strokes[(np.abs(strokes - at) <= room).all(axis=1)]
+        cost = places.price + 0.35 * np.minimum(_inside(boxes, stroked), 8)
+        cost += 1e3 * (_outside(boxes, area) + 4 * _overlaps(boxes, taken) + _covered(boxes, marked))
+        best = int(np.argmin(cost))
+        if cost[best] < least:
+            least, found = float(cost[best]), (boxes[best], float(places.ring[best]))
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Places round a point: ``ring`` (n,) heights of the label off, ``way`` (n, 2) right and down, ``price`` (n,).
+
+    ``part`` (n,) is how much of the room round the point they keep: on the diagonal a corner of the label touches the
+    marker, so it may come nearer than a side.
+    """
+
+    ring: Floats
+    way: Floats
+    part: Floats
+    price: Floats
+
+    def boxes(self, at: Point, wide: float, tall: float, clear: float) -> tuple[Floats, Floats]:
+        """(n, 4): left, top, width, height of a label there; and how far from the point any of them reaches."""
+        reach = clear * self.part + self.ring * tall
+        extent = np.array([wide, tall])
+        off = self.way * (reach[:, None] + np.array([wide, tall * 0.8]) / 2)
+        found = np.empty((len(off), 4))
+        found[:, :2], found[:, 2:] = np.array(at) + off - extent / 2, extent
+        return found, extent + float(reach.max())
+
+
+@cache
+def _rounds(away: tuple[float, float]) -> tuple[_Places, ...]:
+    """The places for labels that would like to be there, the near ones first."""
+    first = np.array(away) / max(*np.abs(away), 1e-9)
+    ways = np.vstack([first, DIRECTIONS]) if max(*np.abs(away)) else DIRECTIONS
+    found = []
+    for rings in ROUNDS:
+        ring, turn = (m.ravel() for m in np.meshgrid(rings, np.arange(len(ways)), indexing="ij"))
+        way = ways[turn]
+        part = np.where(np.abs(way).min(axis=1) > 0.3, 0.75, 1.0)
+        found.append(_Places(ring, way * [1, -1], part, ring * NEARER + turn * 0.12))
+    return tuple(found)
 
 
 def _drawn(

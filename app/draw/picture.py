@@ -6,6 +6,7 @@ type are in *logical points* (1/1000 of the picture's height), so that they scal
 
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -117,9 +118,7 @@ class Camera:
 
     def project(self, points: Floats, width: float, height: float) -> Floats:
         """(n, 3): pixels right and down from the upper left, and depth away from the eye."""
-        ahead = unit(self.focal - self.position)
-        right = unit(np.cross(ahead, self.up))
-        above = np.cross(right, ahead)
+        ahead, right, above = self._axes
         away = np.asarray(points, dtype=float).reshape(-1, 3) - self.position
         depth = away @ ahead
         half = (
@@ -132,11 +131,17 @@ class Camera:
 
     def place(self, x: float, y: float, depth: float, width: float, height: float) -> Floats:
         """(3,): what ``project`` sends to a pixel and a depth."""
-        ahead = unit(self.focal - self.position)
-        right = unit(np.cross(ahead, self.up))
+        ahead, right, above = self._axes
         half = self.scale or depth * np.tan(np.radians(self.angle) / 2)
         aside, up = (2 * x - width) / height * half, (height - 2 * y) / height * half
-        return np.asarray(self.position + depth * ahead + aside * right + up * np.cross(right, ahead))
+        return np.asarray(self.position + depth * ahead + aside * right + up * above)
+
+    @cached_property
+    def _axes(self) -> tuple[Floats, Floats, Floats]:
+        """Ahead, right and above, each of length one."""
+        ahead = unit(self.focal - self.position)
+        right = unit(np.cross(ahead, self.up))
+        return ahead, right, np.cross(right, ahead)
 
 
 @dataclass(frozen=True)

@@ -109,6 +109,11 @@ class ScenePainter:
             renderer.SetViewport(0, 0, 0, 0)
             renderer.DrawOff()
 
+    def hasten(self, is_hasty: bool) -> None:
+        """Blend what is translucent as it comes and not by weight, which takes as long as all the rest."""
+        for renderer in (self.renderer, self._over):
+            renderer.SetUseOIT(not is_hasty)
+
     def background(self, colour: Colour) -> None:
         self.renderer.SetBackground(*colour)
         self.renderer.GradientBackgroundOff()
@@ -159,11 +164,14 @@ class _Strokes:
         self.mapper.ScalarVisibilityOff()
         self.actor.SetMapper(self.mapper)
         self.actor.GetProperty().LightingOff()
+        self._pairs: Indices | None = None
         renderer.AddViewProp(self.actor)
 
     def show(self, lines: Lines, pixels: float) -> None:
         self.data.SetPoints(vtk_arrays.points(lines.points))
-        self.data.SetLines(vtk_arrays.cells(lines.pairs))
+        if self._pairs is None or not np.array_equal(self._pairs, lines.pairs):
+            self._pairs = lines.pairs
+            self.data.SetLines(vtk_arrays.cells(lines.pairs))
         look = self.actor.GetProperty()
         look.SetColor(*lines.colour)
         look.SetOpacity(lines.opacity)

@@ -21,7 +21,7 @@ from app.draw.seen import from_there
 from app.draw.selected import is_pickable
 from app.draw.turned import turned
 from app.editing import extended
-from app.gui.brush import paint
+from app.gui.flat import Flat
 from app.gui.grip import AXES, Grip
 from app.gui.lens import MAGNIFICATION, WHOLE, enlarged, window, within
 from app.gui.look import colour
@@ -69,7 +69,7 @@ class Viewport(QWidget):
         self._painters: list[Any] = []
         self._is_soft = True
         self._empty = QOpenGLWidget(self)  # makes the window one for OpenGL from the start, so that it never flickers
-        self._flat = _Flat(self)
+        self._flat = Flat(self)
         self.narration = Narration(session, self)
         self.pointer = Pointer(self)
         self._calm = QTimer(self, singleShot=True, interval=CALM)
@@ -159,17 +159,6 @@ class Viewport(QWidget):
         """The picture as it is seen now: from where the hand has turned it."""
         return from_there(self._picture, self._state.turn)
 
-    def paint_flat(self, painter: QPainter) -> None:
-        """Everything of the picture that is not in space."""
-        size = self.width(), self._tall()
-        if self._lens is not None:
-            painter.translate(self._lens * (1 - MAGNIFICATION))
-            painter.scale(MAGNIFICATION, MAGNIFICATION)
-        paint(painter, overlay(self._picture, *size, cameras=self.cameras(), words=False))
-        painter.resetTransform()
-        if self._state.options.blank:
-            painter.fillRect(self.rect(), Qt.GlobalColor.black)
-
     def _tall(self) -> float:
         return float(max(self.height() - self.narration.height(), 1))
 
@@ -181,8 +170,11 @@ class Viewport(QWidget):
         (self._plotter or self._empty).setGeometry(self.rect())
 
     def _paint_scenes(self) -> None:
-        if self._plotter is None:
-            return
+        if self._plotter is not None:
+            self._paint_panes()
+        self._redraw()
+
+    def _paint_panes(self) -> None:
         self._plotter.set_background(self._picture.background)
         shown = self._shown()
         height = self._tall() * self.devicePixelRatioF() * (MAGNIFICATION if self.is_magnified else 1.0)
@@ -192,7 +184,6 @@ class Viewport(QWidget):
             self._aim(painter, content, area, camera)
         for painter in self._painters[len(shown) :]:
             painter.hide()
-        self._redraw()
 
     def _shown(self) -> list[tuple[Scene, Area, Camera]]:
         """The scenes, where they are, and from where they are seen."""
@@ -231,16 +222,23 @@ class Viewport(QWidget):
         """One redraw; without smoothing while things change, where a picture takes long."""
         if self._plotter is not None:
             if self._is_soft:
-                self._plotter.render_window.SetMultiSamples(0)
+                self._draw_at(samples=0, is_hasty=True)
                 self._calm.start()
             self._plotter.update()
-        self._flat.update()
+        flat = overlay(self._picture, self.width(), self._tall(), cameras=self.cameras(), words=False)
+        self._flat.lay(flat, self._lens, is_blank=self._state.options.blank)
 
     def _smooth(self) -> None:
         if self._plotter is not None and not self._state.is_playing and not self._is_drag:
             self._is_soft = _is_software(self._plotter.render_window)
-            self._plotter.render_window.SetMultiSamples(SAMPLES // 2 if self._is_soft else SAMPLES)
+            self._draw_at(samples=SAMPLES // 2 if self._is_soft else SAMPLES, is_hasty=False)
             self._plotter.update()
+
+    def _draw_at(self, *, samples: int, is_hasty: bool) -> None:
+        """How well the picture is drawn from now on."""
+        self._plotter.render_window.SetMultiSamples(samples)
+        for painter in self._painters:
+            painter.hasten(is_hasty)
 
     # -- the hand -------------------------------------------------------------------------------
 
@@ -420,20 +418,6 @@ class Viewport(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         QPainter(self).fillRect(self.rect(), colour(self._picture.background))
-
-
-class _Flat(QWidget):
-    """The transparent sheet over the panes; the mouse goes through it."""
-
-    def __init__(self, viewport: Viewport) -> None:
-        super().__init__(viewport)
-        self._viewport = viewport
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        self._viewport.paint_flat(painter)
-        painter.end()
 
 
 def _is_software(render_window: Any) -> bool:

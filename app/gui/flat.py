@@ -1,0 +1,76 @@
+"""The transparent sheet over the panes: everything flat of a picture, painted again only where it has changed."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QRegion
+from PySide6.QtWidgets import QWidget
+
+from app.draw.layout import extent
+from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
+from app.gui.brush import paint
+from app.gui.lens import MAGNIFICATION
+
+RIM = 3
+"""Pixels round everything, for soft edges."""
+
+
+class Flat(QWidget):
+    """Shows primitives, perhaps through the magnifier; or nothing but black.  The mouse goes through it."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._shown: tuple[Primitive, ...] = ()
+        self._lens: QPointF | None = None
+        self._is_blank = False
+
+    def lay(self, shown: Sequence[Primitive], lens: QPointF | None = None, *, is_blank: bool = False) -> None:
+        """Show these from now on, twice as large about ``lens``, if there is one."""
+        was, self._shown = self._shown, tuple(shown)
+        looks, self._lens, self._is_blank = (self._lens, self._is_blank), lens, is_blank
+        if looks == (lens, is_blank) == (None, False):
+            self.update(changed(was, self._shown))
+        else:
+            self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter, where = QPainter(self), event.region()
+        if self._is_blank:
+            painter.fillRect(self.rect(), Qt.GlobalColor.black)
+        elif self._lens is not None:
+            painter.translate(self._lens * (1 - MAGNIFICATION))
+            painter.scale(MAGNIFICATION, MAGNIFICATION)
+            paint(painter, self._shown)
+        else:
+            paint(painter, (each for each in self._shown if where.intersects(room(each))))
+        painter.end()
+
+
+def changed(before: Sequence[Primitive], after: Sequence[Primitive]) -> QRegion:
+    """Where two pictures differ: round what only one of them has; round all where their order differs."""
+    if before == after:
+        return QRegion()
+    old, new = set(before), set(after)
+    is_in_order = [each for each in before if each in new] == [each for each in after if each in old]
+    found = QRegion()
+    for each in old ^ new if is_in_order else old | new:
+        found += room(each)
+    return found
+
+
+def room(each: Primitive) -> QRect:
+    """The pixels that something flat may touch."""
+    match each:
+        case Text():
+            left, top, wide, tall = extent(each)
+            found, rim = QRectF(left, top, wide, tall), 0.3 * each.size
+        case Plate():
+            found, rim = QRectF(each.x, each.y, each.width, each.height), each.line
+        case Stroke():
+            found = QRectF(QPointF(each.x0, each.y0), QPointF(each.x1, each.y1)).normalized()
+            rim = each.width
+        case Mark():
+            found, rim = QRectF(each.x, each.y, 0, 0), 2.2 * each.size
+    rim += RIM
+    return found.adjusted(-rim, -rim, rim, rim).toAlignedRect()
