@@ -2,6 +2,7 @@
 
 import keyword
 import re
+import unicodedata
 from pathlib import Path
 
 from subdivision.files.saving import save
@@ -34,7 +35,8 @@ def {id}() -> Iterator[Beat]:
 
 def identifier(name: str) -> str:
     """A name as Python can use it for a function."""
-    plain = re.sub(r"\W+", "_", name.lower(), flags=re.ASCII).strip("_") or "lesson"
+    letters = unicodedata.normalize("NFKD", name.lower()).encode("ascii", "ignore").decode()
+    plain = re.sub(r"\W+", "_", letters, flags=re.ASCII).strip("_") or "lesson"
     return f"lesson_{plain}" if plain[0].isdigit() or keyword.iskeyword(plain) else plain
 
 

@@ -1,5 +1,6 @@
 """Lessons from elsewhere: tried in a process of their own, named where they fail, run only where it was agreed to."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -8,12 +9,15 @@ import pytest
 
 import lessons
 from app import shelf
+from app.beginning import begin, file_in
 from app.cli import main
 from app.draw.compose import compose
+from app.keeping import kept, restored
 from app.retold import retold
 from app.shelf import Shelf, digest, ids, loaded, opened, remember, remembered
 from app.state import at_stop, drag, open_lesson, set_knob, start, stops
-from app.trial import Outcome, command, judged
+from app.strict import KeepingError
+from app.trial import MOST_POINTS, Outcome, command, judged
 from lessons.own import Fault, LessonError
 
 HEAD = """\
@@ -202,3 +206,34 @@ def test_commands_run_a_folders_lessons_only_once_trusted(tmp_path, place, capsy
 def test_a_fault_is_raised_as_a_sentence(tmp_path):
     with pytest.raises(LessonError, match=r"corner\.py, line 1, 'def': this is not Python: .*; mend that line"):
         loaded(written(tmp_path, "def"), ids({}), SAYS_NOTHING)
+
+
+MANUAL = (Path(__file__).parent.parent / "assets" / "manual" / "authoring.md").read_text(encoding="utf-8")
+
+
+def test_the_lesson_in_the_manual_runs_as_it_is_printed(tmp_path):
+    (text,) = re.findall(r"```python\n(.*?)```", MANUAL, re.DOTALL)
+    assert tried(written(tmp_path, text)) == Outcome()
+    (found,) = loaded(tmp_path / "corner.py", ids({}), SAYS_NOTHING)
+    assert found.id == "corner"
+    assert all(beat.claim for beat in found.beats)
+    assert max(map(len, text.splitlines())) <= 120
+    assert f"{MOST_POINTS:,} points" in MANUAL
+
+
+def test_a_lesson_to_begin_with_is_a_lesson(tmp_path):
+    path = file_in(tmp_path, "2 Schöne Ecken.txt")
+    begin(path)
+    assert path.name == "lesson_2_schone_ecken.py"
+    assert tried(path) == Outcome()
+    with pytest.raises(FileExistsError):
+        begin(path)
+
+
+def test_a_session_of_a_lesson_that_is_not_here_says_where_it_may_be(tmp_path):
+    (found,) = loaded(written(tmp_path, GOOD), ids({}), SAYS_NOTHING)
+    text = kept(start(found))
+    with pytest.raises(KeepingError, match=r"no lesson 'corner'; if it is one of your own, open its folder first"):
+        restored(text)
+    lessons.bring((found,))
+    assert restored(text).lesson is found

@@ -102,6 +102,11 @@ class Authoring(QObject):
         self._take(folder)
         return True
 
+    def fault_of(self, lesson: Lesson) -> Fault | None:
+        """What is wrong with the file of a lesson, which is then shown in an older version."""
+        path = next((path for path, those in self.found.items() if lesson.id in {each.id for each in those}), None)
+        return self.faults.get(path) if path is not None else None
+
     def expect(self, path: Path, sentence: str) -> None:
         """A file has been written; the sentence is said when it is loaded."""
         self._expected[path] = sentence
@@ -176,9 +181,18 @@ class Authoring(QObject):
             return
         if self._marks.get(path) != mark:
             self._marks[path] = mark
-            self._waiting = [*(each for each in self._waiting if each != path), path]
-            if self._trials.path == path:
-                self._trials.stop()
+            self._queue(path)
+
+    def _queue(self, path: Path) -> None:
+        """Have a file wait for its trial: one that is shown goes before all others, also before what is on trial."""
+        others = [each for each in self._waiting if each != path]
+        on_trial = self._trials.path
+        if path in self.found:
+            self._waiting = [path, *others, *([on_trial] if on_trial not in (None, path) else [])]
+        else:
+            self._waiting = [*others, path]
+        if on_trial == path or path in self.found:
+            self._trials.stop()
 
     def _go_on(self) -> None:
         """Try or load the next file that waits; when none does, tell what has come of it all."""

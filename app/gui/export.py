@@ -166,8 +166,8 @@ class Exporter(QObject):
     def is_busy(self) -> bool:
         return self._process is not None
 
-    def start(self, state: State, wish: Wish, out: Path) -> None:
-        """Make what is wished for; the banner tells how it goes."""
+    def start(self, state: State, wish: Wish, out: Path, own: Path | None = None) -> None:
+        """Make what is wished for; the banner tells how it goes.  ``own`` is a folder of lessons that was agreed to."""
         if self.is_busy:
             self._banner.say("An export is under way; wait for it, or cancel it first.")
             return
@@ -184,7 +184,7 @@ class Exporter(QObject):
         self._process.errorOccurred.connect(self._failed)
         self._process.readyReadStandardOutput.connect(self._heard)
         self._process.setWorkingDirectory(str(Path(app.__file__).parent.parent))
-        self._process.start(sys.executable, ["-m", "app", *arguments(kept, state, wish, out)])
+        self._process.start(sys.executable, ["-m", "app", *arguments(kept, state, wish, out, own)])
         self._banner.wait(phrase("Exporting {name} …", name=out.name), self.cancel)
 
     def cancel(self) -> None:
@@ -241,7 +241,7 @@ class Exporter(QObject):
             self._folder = None
 
 
-def arguments(kept: Path, state: State, wish: Wish, out: Path) -> list[str]:
+def arguments(kept: Path, state: State, wish: Wish, out: Path, own: Path | None = None) -> list[str]:
     """The command that makes it, of a state kept in a file."""
     width, height = wish.size
     return [
@@ -249,4 +249,5 @@ def arguments(kept: Path, state: State, wish: Wish, out: Path) -> list[str]:
         "--size", f"{width}x{height}", "--background", wish.background, "--pace", str(wish.pace),
         "--theme", state.options.theme, "--scale", f"{state.options.scale:.0%}", "--progress",
         "--language", state.options.language, *(["--limit"] if wish.limit else []),
+        *(["--lessons", str(own), "--trust"] if own is not None else []),
     ]  # fmt: skip

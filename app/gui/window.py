@@ -376,7 +376,10 @@ class Window(QMainWindow):
 
     def export_to(self, wish: Wish, path: Path) -> None:
         """Make what is wished for of what is open."""
-        self.exporter.start(self.session.state, wish, wish.named(path))
+        if (fault := self.authoring.fault_of(self.session.state.lesson)) is not None:
+            self.banner.say(phrase("Nothing was exported: the lesson's file is broken. {fault}", fault=fault.sentence))
+            return
+        self.exporter.start(self.session.state, wish, wish.named(path), self.authoring.folder)
 
     def _ask_where(self, wish: Wish) -> Path | None:
         folder = Path(self._folder("exports"))

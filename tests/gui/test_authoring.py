@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog
 
 import lessons
 from app import bench
+from app.export.wish import Wish
 from app.gui.consent import Consent
 from app.gui.contents import FAULT, LESSON
 from app.recording import difference, picture
@@ -116,10 +117,15 @@ def test_a_file_that_changes_is_shown_again_at_its_place_and_a_broken_one_is_nam
     assert "ZeroDivisionError" in window.banner.words.text()
     assert session.state.now.text == "New words."
     assert "line 11" in listed(window)["A corner of my own"]
+    window.export_to(Wish("png", of="view"), folder.parent / "out")
+    assert "Nothing was exported" in window.banner.words.text()
     (half := folder / "corner.tmp").write_text(HEAD)
     half.replace(file)
     qtbot.waitUntil(lambda: session.state.now.text == "Topology.", timeout=20_000)
     assert listed(window)["A corner of my own"] == ""
+    window.export_to(Wish("png", of="view"), folder.parent / "out.png")
+    qtbot.waitUntil(lambda: not window.exporter.is_busy, timeout=60_000)
+    assert (folder.parent / "out.png").exists(), window.banner.words.text()
     file.unlink()
     qtbot.waitUntil(lambda: "corner" not in {each.id for each in lessons.all_lessons()}, timeout=20_000)
     assert session.state.now.text == "Topology."
