@@ -1,9 +1,12 @@
 """A picture at another scale: type grows as far as there is room, and is never smaller than it can be read."""
 
+import ast
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+import app
 import lessons
 from app import keeping, link
 from app.draw.compose import compose
@@ -64,3 +67,32 @@ def test_the_scale_is_the_readers_own():
     assert keeping.restored(keeping.kept(state), here).options.scale == 1.5
     assert keeping.taken_up(replace(state, options=here), state).options.scale == 1.5
     assert link.link(state) == link.link(choose(state, scale=1.0))
+
+
+MEASURED = {"setFixedHeight", "setFixedWidth", "setFixedSize", "setMinimumWidth", "setMinimumHeight", "setSpacing",
+            "setContentsMargins", "addSpacing", "setHorizontalSpacing", "setVerticalSpacing", "setIconSize", "gap",
+            "drawRoundedRect", "setPixelSize", "setHandleWidth"}
+"""Calls that take pixels."""
+
+TO_SCALE = {"px", "fine", "type_face", "range"}
+
+
+def bare(node):
+    """Whether a measure has pixels in it that are not those of the scale: a number, or a distance of the grid."""
+    if isinstance(node, ast.Call) and getattr(node.func, "id", "") in TO_SCALE:
+        return False
+    if isinstance(node, ast.Constant):
+        return isinstance(node.value, int | float) and node.value > 1
+    return getattr(node, "id", "") == "GRID" or any(bare(child) for child in ast.iter_child_nodes(node))
+
+
+def test_every_measure_of_the_window_is_to_scale():
+    found = [
+        f"{path.name}:{node.lineno}"
+        for path in sorted((Path(app.__file__).parent / "gui").glob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Call) and (getattr(node.func, "attr", "") or getattr(node.func, "id", "")) in MEASURED
+        and any(isinstance(arg, ast.Constant | ast.BinOp | ast.Name | ast.Call) and bare(arg) for arg in node.args)
+        and path.name != "brush.py"  # it paints at the size that the layout says
+    ]
+    assert not found

@@ -42,7 +42,7 @@ class Consent(QDialog):
         column.setSpacing(px(16))
         for part in (question, where, _plain(_listed(files)), _plain(tr(WHAT_THEY_ARE)), self.buttons):
             column.addWidget(part)
-        self.setMinimumWidth(px(520))
+        self.setMinimumWidth(min(px(520), parent.width()))
         self.later.setDefault(True)  # now that it has a dialog to be the default of
         self.later.setFocus()
 

@@ -95,8 +95,7 @@ class Contents(QWidget):
 
     def inherit(self, before: "Contents") -> None:
         """Take over what is searched for, how far the list is scrolled, and lessons from elsewhere."""
-        listed = {each.id for each in self._lessons}
-        self._lessons += [each for each in before._lessons if each.id not in listed]
+        self._faults, self._lessons = before._faults, before._lessons
         self._fill()
         self.list.setCurrentIndex(self._index_of(self._session.state.lesson))
         self.search.setText(before.search.text())

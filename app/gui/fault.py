@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QFont, QGuiApplication
 from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
-from app.gui.look import GRID, type_face
+from app.gui.look import GRID, px, type_face
 from app.gui.parts import Section
 from app.gui.window import Window
 from app.log import LOG
@@ -124,7 +124,7 @@ class FaultDialog(QDialog):
         soothing.setText(tr(SOOTHING))
         self.text = QPlainTextEdit(readOnly=True)
         self.text.setAccessibleName(tr("Report"))
-        self.text.setMinimumHeight(24 * GRID)
+        self.text.setMinimumHeight(px(24 * GRID))
         self.details = Section(tr("Details"), self.text, stretched=self.text)
         self.details.head.toggled.connect(lambda _: self.adjustSize())
         self.save = _button(tr("Save the session…"), window.save_session_as)
@@ -132,13 +132,13 @@ class FaultDialog(QDialog):
         self.go_on = _button(tr("Go on"), self.hide)
         self.go_on.setDefault(True)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(3 * GRID, 3 * GRID, 3 * GRID, 2 * GRID)
-        layout.setSpacing(2 * GRID)
+        layout.setContentsMargins(px(3 * GRID), px(3 * GRID), px(3 * GRID), px(2 * GRID))
+        layout.setSpacing(px(2 * GRID))
         for part in (title, self.sentence, self.often, soothing):
             layout.addWidget(part)
         layout.addWidget(self.details, 1)
         layout.addLayout(_row(self.save, self.copy, self.go_on))
-        self.setFixedWidth(72 * GRID)
+        self.setFixedWidth(min(px(72 * GRID), window.width()))
 
     def begin(self) -> None:
         """Empty, for new faults."""
@@ -192,7 +192,7 @@ def _button(name: str, does: Callable[[], Any]) -> QPushButton:
 
 def _row(*buttons: QWidget) -> QHBoxLayout:
     row = QHBoxLayout()
-    row.setSpacing(GRID)
+    row.setSpacing(px(GRID))
     row.addStretch(1)
     for each in buttons:
         row.addWidget(each)

@@ -127,7 +127,7 @@ SHEET = """
 QMenuBar { background: $panel; padding: 2px 4px; border: none; }
 QMenuBar::item { padding: 4px 8px; border-radius: 4px; background: transparent; }
 QMenuBar::item:selected { background: $tint; }
-QMenu { background: $background; border: 1px solid $line; padding: 4px; }
+QMenu { background: $background; border: 1px solid $line; padding: 4px; menu-scrollable: 1; }
 QMenu::item { padding: 6px 28px 6px 28px; border-radius: 4px; }
 QMenu::item:selected { background: $chosen; color: $ink; }
 QMenu::item:disabled { color: $faded; }

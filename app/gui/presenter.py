@@ -159,7 +159,7 @@ class Formula(QWidget):
             size, edge = fine(FORMULA), px(2)
             _, ascent, descent = measure(words, size)
             self._text = Text(0.0, ascent + edge, words, size, THEMES[state.options.theme].ink)
-            self.setFixedHeight(round(ascent + descent) + 2 * edge)
+            self.setFixedHeight(round(ascent + descent) + px(4))
             self.setAccessibleName(words)
             self.update()
 

@@ -108,7 +108,6 @@ class Window(QMainWindow):
         self.opener = Opener(session, self.banner, self.opened)
         self.authoring = Authoring(self, Path(settings.fileName()).with_name("lessons.json"))
         self.recorder = Recorder(self)
-        self.contents.asked.connect(self.banner.say)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
         QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
@@ -489,6 +488,7 @@ class Window(QMainWindow):
         self.timeline = Timeline(session, self._button)
         self.contents = Contents(session, lessons.all_lessons())
         self.contents.found.connect(self.leave_search)
+        self.contents.asked.connect(self.banner.say)
         self.laboratory = Laboratory(session, self.banner, self.worker)
         self.editing = Editing(session, self.banner)
         self.spectrum = Spectrum(session, self.laboratory.wish)
