@@ -61,6 +61,11 @@ class Ring:
     spokes: tuple[tuple[int, ...], ...]
     n_vertices: int
 
+    @cached_property
+    def corners(self) -> Indices:
+        """The corners of ``faces``, laid end to end."""
+        return np.array([v for face in self.faces for v in face.vertices], dtype=np.intp)
+
     def around(self, t: Topology, faces: Indices) -> Indices:
         """(n_vertices, n_faces) int: where its vertices are round each of ``faces``."""
         k = len(self.spokes)
@@ -105,16 +110,15 @@ class Kind:
         return ring(self.shape)
 
     @property
-    def creases(self) -> dict[tuple[int, int], float]:
-        """The sharp edges at its corners."""
-        if not any(fan.sharpness for fan in self.fans):
-            return {}
-        return {
-            (i, end): sharpness
+    def creases(self) -> list[tuple[int, int, float]]:
+        """The sharp edges at its corners, and how sharp they are; some from both ends."""
+        return [
+            (i, end, sharpness)
             for i, (fan, ends) in enumerate(zip(self.fans, self.ring.spokes, strict=True))
-            for end, sharpness in zip(ends, fan.sharpness, strict=bool(fan.sharpness))
+            if fan.sharpness
+            for end, sharpness in zip(ends, fan.sharpness, strict=True)
             if sharpness
-        }
+        ]
 
 
 Shape = tuple[tuple[int, int, bool], ...]
@@ -236,19 +240,16 @@ def unfolded(kinds: tuple[Kind, ...]) -> tuple[Topology, Indices]:
 
     ``number`` (n_vertices,) int says which vertex of its kind every vertex is.
     """
-    k = len(kinds[0].fans)
-    begin = np.cumsum([0, *(kind.ring.n_vertices for kind in kinds)])
-    faces = [b + i for b in begin[:-1].tolist() for i in range(k)]
-    creases: dict[tuple[int, int], float] = {}
-    corners: dict[int, float] = {}
-    for b, kind in zip(begin.tolist(), kinds, strict=False):
-        faces += [b + v for face in kind.ring.faces for v in face.vertices]
-        creases |= {(b + i, b + j): sharpness for (i, j), sharpness in kind.creases.items()}
-        corners |= {b + i: fan.pinned for i, fan in enumerate(kind.fans) if fan.pinned}
+    k, sizes = len(kinds[0].fans), np.array([kind.ring.n_vertices for kind in kinds])
+    begin = np.cumsum(sizes) - sizes
+    begins = list(zip(begin.tolist(), kinds, strict=True))
+    faces = np.concatenate([(begin[:, None] + np.arange(k)).ravel(), *(b + kind.ring.corners for b, kind in begins)])
     t = Topology.from_corners(
-        np.full(len(faces) // k, k), np.array(faces), int(begin[-1]), creases=creases, corners=corners
-    )
-    return t, np.concatenate([np.arange(kind.ring.n_vertices) for kind in kinds])
+        np.full(len(faces) // k, k), faces, int(sizes.sum()),
+        creases={(b + i, b + j): sharpness for b, kind in begins for i, j, sharpness in kind.creases},
+        corners={b + i: fan.pinned for b, kind in begins for i, fan in enumerate(kind.fans) if fan.pinned},
+    )  # fmt: skip
+    return t, np.arange(int(sizes.sum())) - np.repeat(begin, sizes)
 
 
 def with_ring(t: Topology, ours: Mask) -> tuple[Topology, Indices, Mask]:
@@ -296,7 +297,7 @@ def _fans(t: Topology, counts: Indices) -> tuple[Indices, list[Fan]]:
         features = _features(t, at, int(counts.max()))
         first, which = distinct(features)
         code[at] = len(fans) + which
-        fans += map(_fan, features[first])
+        fans += map(_fan, features[first].tolist())
     return code, fans
 
 
@@ -325,11 +326,11 @@ def _features(t: Topology, at: Indices, largest: int) -> Floats:
     return np.column_stack([faces, closed, t.vertex_sharpness[t.origin[at]], left, right])
 
 
-def _fan(features: Floats) -> Fan:
+def _fan(features: list[float]) -> Fan:
     left, right, closed = (int(x) for x in features[:3])
-    first, second = np.split(features[4:], 2)
-    sharpness = (*first[: left + 1 + (not closed)].tolist(), *second[1 : right + 1].tolist())
-    return Fan(left, right, bool(closed), sharpness if any(sharpness) else (), float(features[3]))
+    first, second = 4, 4 + len(features) // 2 - 2
+    sharpness = (*features[first : first + left + 1 + (not closed)], *features[second + 1 : second + right + 1])
+    return Fan(left, right, bool(closed), sharpness if any(sharpness) else (), features[3])
 
 
 def _ranked(numbers: Indices) -> Indices:

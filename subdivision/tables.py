@@ -30,7 +30,7 @@ REMEMBERED_AT_MOST = 256
 
 @dataclass(frozen=True, eq=False)
 class Template:
-    """A face with ``k`` corners after ``depth`` splits: its corners, the points on its sides, then those inside.
+    """A face with ``k`` corners after ``depth`` splits: its corners, the points inside, then those on its sides.
 
     Attributes
     ----------
@@ -51,16 +51,12 @@ class Template:
         return (1 << self.depth) - 1
 
     @property
-    def begins_inside(self) -> int:
-        return self.k * (1 + self.on_side)
-
-    @property
     def n_inside(self) -> int:
-        return len(self.first) - self.begins_inside
+        return len(self.first) - self.k * (1 + self.on_side)
 
-    def side(self, i: int) -> Indices:
-        """The points between corner ``i`` and the next."""
-        return self.k + i * self.on_side + np.arange(self.on_side)
+    def until_side(self, i: int) -> int:
+        """How many points there are before those between corner ``i`` and the next."""
+        return self.k + self.n_inside + i * self.on_side
 
 
 @lru_cache(maxsize=16)
@@ -75,10 +71,12 @@ def template(k: int, depth: int) -> Template:
         t = refine.quads(t) if k == 4 else refine.triangles(t)
     n = 2**depth
     number = {tuple(p): v for v, p in enumerate((at * n).astype(int).tolist())}
-    order = list(range(k))
-    for a, b in ends.tolist():
-        order += [number[int(n * a[0] + j * (b[0] - a[0])), int(n * a[1] + j * (b[1] - a[1]))] for j in range(1, n)]
-    order += sorted(set(range(len(at))) - set(order))
+    sides = [
+        number[int(n * a[0] + j * (b[0] - a[0])), int(n * a[1] + j * (b[1] - a[1]))]
+        for a, b in ends.tolist()
+        for j in range(1, n)
+    ]
+    order = [*range(k), *sorted(set(range(k, len(at))) - set(sides)), *sides]
     renumbered = np.empty(len(order), dtype=np.intp)
     renumbered[order] = np.arange(len(order))
     small, _ = descendants(k, 1, depth)
@@ -197,9 +195,9 @@ class Tables:
         begin, step = self.begin.astype(number), self.step.astype(number)
         numbers = np.empty((F, len(split.first)), dtype=number)
         numbers[:, :k] = self.coarse.origin.reshape(F, k)
-        sides = numbers[:, k : split.begins_inside].reshape(F, k, -1)
+        sides = numbers[:, split.until_side(0) :].reshape(F, k, -1)
         _counted(begin[F:].reshape(F, k), step[F:].reshape(F, k), sides)
-        _counted(begin[:F], step[:F], numbers[:, split.begins_inside :])
+        _counted(begin[:F], step[:F], numbers[:, k : split.until_side(0)])
         origin = np.empty((F * len(split.corners), k), dtype=number)
         for small, some in _blocks(k, F, self.depth):
             np.take(numbers, split.corners[some].ravel(), axis=1, out=origin[small].reshape(F, -1), mode="clip")
@@ -215,7 +213,6 @@ def tables(t: Topology, depth: int, rule: Rule, at_most: int) -> Tables | None:
     if found is None:
         return None
     split = template(k, depth)
-    inside, sides = np.arange(split.begins_inside, len(split.first)), [split.side(i) for i in range(k)]
     owns = np.where(central[found.faces[found.start[:-1]]], 0, 2)
     rim = t.twin[k * found.faces + k - 1] < 0
     n, on_rim = np.diff(found.start), np.add.reduceat(rim, found.start[:-1], dtype=np.intp)
@@ -242,15 +239,15 @@ def tables(t: Topology, depth: int, rule: Rule, at_most: int) -> Tables | None:
     corner[t.origin.reshape(F, k)[found.faces]] = (k * found.start[kind] + place)[:, None] + n[kind][
         :, None
     ] * np.arange(k)
-    patches = []
+    patches, none = [], np.zeros(0, dtype=np.intp)
     for i, (around, table) in enumerate(zip(found.rings(t), _tables(found.kinds, depth, rule), strict=True)):
         patches.append(Patches(
             ring=around,
-            table=table[np.concatenate([inside, *sides[: owns[i]]])],
+            table=table[k : split.until_side(owns[i])],
             corners=table[:k],
             begin=int(begins[i]),
-            rim=table[sides[-1]],
-            on_rim=np.flatnonzero(rim[found.start[i] : found.start[i + 1]]),
+            rim=table[split.until_side(k - 1) :],
+            on_rim=np.flatnonzero(rim[found.start[i] : found.start[i + 1]]) if on_rim[i] else none,
             rim_begins=int(rim_begins[i]),
         ))  # fmt: skip
     return Tables(t, depth, tuple(patches), int(rim_begins[-1]), begin, step, corner)
@@ -279,6 +276,11 @@ def _tables(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
             if kind.is_smooth:
                 _remembered[kind, depth, rule] = table
     return [table for table in made if table is not None]
+
+
+def forget() -> None:
+    """Remember no tables, as a new process does."""
+    _remembered.clear()
 
 
 def _computed(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:

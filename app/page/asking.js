@@ -1,0 +1,89 @@
+// Questions: what the reader says before the answer comes, and how near that was.
+
+/** What was said, by the number of the beat that asks: a place in space, or the number of an answer. */
+const said = new Map();
+
+/** The question that a stop asks or answers, the number of its beat, and whether the answer is there. */
+function askedAt(still, isMoving) {
+  const beat = still.question ? still.beat : still.beat - 1;
+  const question = lesson.stops.find((stop) => stop.question && stop.beat === beat)?.question;
+  if (!question) return null;
+  const isLast = lesson.stops.findLast((stop) => stop.beat === still.beat) === still;
+  return { beat, question, isOpen: Boolean(still.question), isTold: !still.question && isLast && !isMoving, said: said.get(beat) };
+}
+
+/** Say something, or take it back by saying it again. */
+function say(beat, prediction) {
+  if (said.get(beat) === prediction) said.delete(beat);
+  else said.set(beat, prediction);
+  refresh();
+}
+
+/** Choose an answer by its number, if there is one to be chosen. */
+function chooseAnswer(k) {
+  const asked = askedAt(player.shown.still, false);
+  if (!asked?.isOpen || !(k < asked.question.answers?.length)) return false;
+  say(asked.beat, k);
+  return true;
+}
+
+/** A click on the picture: a place, where one is asked for. */
+function pointAt(x, y) {
+  const { panes, still } = player.shown, asked = askedAt(still, false);
+  if (!asked?.isOpen || !asked.question.truth?.length) return;
+  const stage = $("stage"), { pane: k, truth } = asked.question;
+  const area = paneAreas(panes, stage.clientWidth, stage.clientHeight, pointOf(stage.clientWidth, stage.clientHeight))[k];
+  if (x < area.x || x > area.x + area.wide || y < area.y || y > area.y + area.tall) return;
+  say(asked.beat, sightOf(panes[k].camera, area, turn).place(x, y, truth));
+}
+
+/** What stands below the caption: answers to choose from, or what became of what was said. */
+function askedWords(asked) {
+  if (!asked) return [];
+  const { question, beat } = asked;
+  const line = document.createElement("p");
+  line.className = "asked";
+  if (asked.isOpen && question.answers) {
+    line.append(...question.answers.map((words, k) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = words;
+      button.setAttribute("aria-pressed", String(asked.said === k));
+      button.addEventListener("click", () => say(beat, k));
+      return button;
+    }));
+  } else if (asked.isOpen) {
+    line.textContent = "Click in the picture where you think it goes.";
+  } else if (asked.isTold && asked.said !== undefined) {
+    line.textContent = verdict(question, asked.said);
+  }
+  return line.hasChildNodes() ? [line] : [];
+}
+
+function verdict(question, prediction) {
+  if (!question.answers) {
+    const away = length(minus(prediction, question.truth)) / question.edge;
+    return `Your prediction is ${away.toFixed(2)} of an edge away.`;
+  }
+  const yours = question.answers[prediction], truth = question.answers[question.truth];
+  return prediction === question.truth ? `You said ${yours}, and it is true.` : `You said ${yours}; ${truth} is true.`;
+}
+
+/** The place that was said, over the picture; with the answer, tied to it. */
+function drawSaid(pen, asked, sights, point, paint) {
+  if (!asked?.said?.length || !sights[asked.question.pane]) return;
+  const sight = sights[asked.question.pane], size = LOOKS.pin * point;
+  const [x, y] = sight.project(asked.said), [toX, toY] = sight.project(asked.question.truth);
+  const colour = paint(LOOKS.guess);
+  if (asked.isTold) {
+    const line = new Path2D();
+    line.moveTo(x, y);
+    line.lineTo(toX, toY);
+    stroke(pen, line, LOOKS.tie * point, colour);
+  }
+  pen.save();
+  pen.globalAlpha = 0.6;
+  drawMark(pen, "sphere", x, y, LOOKS.ground * size, "#fff");
+  pen.restore();
+  drawMark(pen, "aim", x, y, size, colour);
+}
