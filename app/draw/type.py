@@ -5,6 +5,7 @@ Every painter measures with this, so that a picture breaks its lines at the same
 
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from threading import Lock
 from typing import TypeAlias
 
 import numpy as np
@@ -27,8 +28,15 @@ FEATURES = ("tnum",)
 ASCENT, DESCENT = 0.93, 0.25
 """Room for a line of plain words, relative to its size."""
 
+DOUBT = 0.02
+"""By how much words and the spaces between them may come nearer to each other than each by itself, at each space."""
+
 Extent: TypeAlias = tuple[float, float, float]
 """Width, ascent above the baseline, descent below it."""
+
+
+_one_at_a_time = Lock()
+"""The parser of mathtext is one for all threads, and remembers where it is."""
 
 
 @dataclass(frozen=True)
@@ -71,13 +79,23 @@ def wrapped(text: str, size: float, width: float, bold: bool = False) -> tuple[s
 
 
 def _broken(words: list[str], size: float, width: float, bold: bool) -> tuple[str, ...]:
-    lines = [words[0]]
+    lines, about = [words[0]], _about(words[0], bold)
     for word in words[1:]:
-        if measure(f"{lines[-1]} {word}", size, bold)[0] <= width:
-            lines[-1] += f" {word}"
+        longer, guess = f"{lines[-1]} {word}", about + _about(f" {word}", bold)
+        doubt = DOUBT * size * (1 + longer.count(" "))
+        is_clear = abs(guess * size - width) > doubt
+        if (guess * size if is_clear else measure(longer, size, bold)[0]) <= width:
+            lines[-1], about = longer, guess
         else:
             lines.append(word)
+            about = _about(word, bold)
     return tuple(line.strip() for line in lines)
+
+
+@lru_cache(maxsize=4096)
+def _about(text: str, bold: bool) -> float:
+    """The width of type of size 1, so far as it does not depend on what stands beside it."""
+    return measure(f"|{text}", 1.0, bold)[0] - measure("|", 1.0, bold)[0]
 
 
 def _words(text: str) -> list[str]:
@@ -132,6 +150,11 @@ def _plain(text: str, bold: bool) -> tuple[float, float, float, Floats, Indices]
 
 
 def _math(text: str) -> tuple[float, float, float, Floats, Indices]:
+    with _one_at_a_time:
+        return _mathematics(text)
+
+
+def _mathematics(text: str) -> tuple[float, float, float, Floats, Indices]:
     tool = TextToPath()
     look = FontProperties(math_fontfamily=MATHEMATICS, size=tool.FONT_SCALE)
     width, height, descent = tool.get_text_width_height_descent(f"${text}$", look, ismath=True)
