@@ -2,6 +2,7 @@
 
 import ast
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ import app
 import lessons
 from app import keeping, link
 from app.draw.compose import compose
-from app.draw.layout import ROOM, overlay, pane_areas
+from app.draw.layout import ROOM, extent, overlay, pane_areas
 from app.draw.picture import Scene
 from app.draw.primitives import LEAST, Text
 from app.draw.theme import THEMES
@@ -96,3 +97,10 @@ def test_every_measure_of_the_window_is_to_scale():
         and path.name != "brush.py"  # it paints at the size that the layout says
     ]
     assert not found
+
+
+def test_enlarged_labels_cover_no_others():
+    state = choose(at(lessons.find("14"), 2.5), labels=True, valences=True)
+    boxes = [extent(each) for each in overlay(compose(state), *SIZES[0]) if isinstance(each, Text)]
+    for (x, y, w, h), (x1, y1, w1, h1) in combinations(boxes, 2):
+        assert x >= x1 + w1 or x1 >= x + w or y >= y1 + h1 or y1 >= y + h

@@ -4,7 +4,7 @@ Each label takes the nearest free place round its point, first where it would li
 must go further is tied to its point by a thin line.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TypeAlias
 
@@ -44,13 +44,22 @@ FEW = 400
 
 
 def placed(scene: Scene, camera: Camera, area: Area, height: float, picture: Picture) -> list[Primitive]:
-    """The labels of a scene in its pane, the largest placed first."""
-    if not scene.labels:
-        return []
+    """The labels of a scene in its pane, the largest placed first; enlarged as far as none then covers another."""
+    found: list[Primitive] = []
+    for growth in dict.fromkeys((picture.growth, picture.growth**0.5, 1.0)) if scene.labels else ():
+        smaller = replace(picture, scale=picture.scale * growth / picture.growth, growth=growth)
+        found, is_clear = _placed(scene, camera, area, height, smaller)
+        if is_clear:
+            break
+    return sorted(found, key=lambda one: isinstance(one, Text))
+
+
+def _placed(scene: Scene, camera: Camera, area: Area, height: float, picture: Picture) -> tuple[list[Primitive], bool]:
+    """The labels at the size of the picture's type, and whether none lies over another."""
     unit = height / 1000
     discs, strokes = _discs(scene, camera, area), _samples(scene, camera, area)
     discs = np.vstack([discs, pins.discs(scene, camera, area, picture, height)])
-    taken = np.zeros((0, 4))
+    taken, is_clear = np.zeros((0, 4)), True
     found: list[Primitive] = []
     for label in sorted(scene.labels, key=lambda one: -one.size):
         x, y = map(float, _flat(label.at, camera, area)[0, :2])
@@ -58,9 +67,10 @@ def placed(scene: Scene, camera: Camera, area: Area, height: float, picture: Pic
             continue  # the user has turned or zoomed its point out of the pane
         size = max(label.size * picture.scale, LEAST) * unit
         box, off = _best(label, (x, y), size, unit, area, discs, strokes, taken)
+        is_clear = is_clear and not _overlaps(box[None], taken).any()
         taken = np.vstack([taken, box + np.array([-0.25, 0, 0.5, 0]) * box[3]])  # words side by side read as two
         found.extend(_drawn(label, (x, y), size, box, off, picture, unit))
-    return sorted(found, key=lambda one: isinstance(one, Text))
+    return found, is_clear
 
 
 def _best(
