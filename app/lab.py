@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
+from app.lately import Lately
 from lessons.measured import difference
 from lessons.script import Beat, Lesson, Reading, View, look_at
 from subdivision import Boundary, Mesh, Polyline, Role, Scheme, Stage, Topology, Trace, trace
@@ -25,6 +25,9 @@ BUDGET = 130_000
 
 COMFORT = 20_000
 """... and what is played well: as many a new control object is given, unless more are asked for."""
+
+ROOM = 500_000
+"""Points, of all stages, that stories worked out lately may have together: some 200 MB; older ones are told anew."""
 
 SENTENCES = {
     "topology": "New topology: a point on every edge, smaller faces between them. Nothing moves.",
@@ -148,12 +151,17 @@ def lesson_of(lab: Lab) -> Lesson:
     TopologyError
         If one of its rules refuses the control object.
     """
-    rules = lab.rules if lab.other is None else (lab.rules[0], lab.other, *lab.rules[1:])
-    lengths = [lab.levels, *(min(rule.until or lab.levels, lab.levels) for rule in rules[1:])]
-    traces = tuple(_told(lab.control, rule, n) for rule, n in zip(rules, lengths, strict=True))
-    made = Lesson(LABORATORY, titled(lab.name), SECTION, lambda: _beats(lab, rules, traces))
+    made = _Story(LABORATORY, titled(lab.name), SECTION, lambda: _beats(lab))
     _ = made.beats
     return made
+
+
+class _Story(Lesson):
+    """Weighs nothing itself, so that hundreds can be undone to: its beats go when newer ones need their room."""
+
+    @property
+    def beats(self) -> tuple[Beat, ...]:
+        return _STORIES(self)
 
 
 def titled(name: str) -> str:
@@ -162,11 +170,21 @@ def titled(name: str) -> str:
     return f"{words[:1].upper()}{words[1:]}"
 
 
-@lru_cache(maxsize=16)
-def _told(control: Mesh, rule: Rule, levels: int) -> Trace:
+def _tell(asked: tuple[Mesh, Rule, int]) -> Trace:
+    control, rule, levels = asked
     found = trace(rule.scheme, rule.bounded(control), rule.told, levels)
     _ = found.points, [stage.moves for stage in found.stages]  # here, where nobody waits for a picture
     return found
+
+
+def _points(*traces: Trace) -> int:
+    return sum(len(points) for told in traces for points in told.points)
+
+
+_TRACES = Lately(_tell, _points, ROOM)
+_STORIES: Lately[Lesson, tuple[Beat, ...]] = Lately(
+    lambda lesson: tuple(lesson.script()), lambda beats: _points(*(view.trace for view in beats[0].views)), ROOM
+)
 
 
 def _affordable(mesh: Mesh, rule: Rule, budget: int) -> int:
@@ -195,7 +213,10 @@ def _left(net: Grid, lost: Vector, levels: int) -> int:
     return sides[0] * sides[1] * (1 + net.diagonal)
 
 
-def _beats(lab: Lab, rules: Sequence[Rule], traces: tuple[Trace, ...]) -> Iterator[Beat]:
+def _beats(lab: Lab) -> Iterator[Beat]:
+    rules = lab.rules if lab.other is None else (lab.rules[0], lab.other, *lab.rules[1:])
+    lengths = [lab.levels, *(min(rule.until or lab.levels, lab.levels) for rule in rules[1:])]
+    traces = tuple(_TRACES((lab.control, rule, n)) for rule, n in zip(rules, lengths, strict=True))
     look = look_at(traces[0])
     titles = [_title(rule) if len(rules) > 1 else "" for rule in rules]
     yield Beat(_opening(lab, traces[0]), _views(lab, traces, titles, [(0, 0)] * len(traces), _apart), look=look)

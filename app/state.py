@@ -8,7 +8,7 @@ the stage between; going back plays it backwards.
 """
 
 from dataclasses import dataclass, field, fields, replace
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -35,6 +35,9 @@ STILL = 0.5
 
 READING = 2.5
 """How long playing through rests on a still, in stages, so that it can be read."""
+
+WALKED = 256
+"""Lessons whose ways are remembered: more than there are, and not all that were ever made in the laboratory."""
 
 
 @dataclass(frozen=True)
@@ -173,9 +176,13 @@ class State:
         return edited(view.trace, self.edits)
 
 
-@lru_cache(maxsize=32)
 def edited(trace: Trace, edits: Edits) -> Trace:
     """The trace with control points moved; itself where none is."""
+    return _edited(trace, edits) if edits else trace
+
+
+@lru_cache(maxsize=8)
+def _edited(trace: Trace, edits: Edits) -> Trace:
     there = {vertex: np.array(to) for vertex, to in edits if vertex < trace.control.topology.n_vertices}
     return trace.dragged(there) if there else trace
 
@@ -183,7 +190,7 @@ def edited(trace: Trace, edits: Edits) -> Trace:
 # -- the way through a lesson -----------------------------------------------------------------
 
 
-@cache
+@lru_cache(maxsize=WALKED)
 def stops(lesson: Lesson) -> tuple[Stop, ...]:
     """Every place where playing rests, in order.  A played beat rests after each of its stages."""
     found: list[Stop] = []
@@ -196,7 +203,7 @@ def stops(lesson: Lesson) -> tuple[Stop, ...]:
     return tuple(found)
 
 
-@cache
+@lru_cache(maxsize=WALKED)
 def segments(lesson: Lesson) -> tuple[Segment, ...]:
     """The timeline: one segment for each stage played and each still."""
     found: list[Segment] = []

@@ -64,7 +64,7 @@ def distances(state: State, view: View, theme: Theme) -> Diagram:
     )
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=8)
 def to_limit(trace: Trace) -> Course:
     """For every complete level, the largest distance of its vertices from their limits."""
     title, found = "Largest distance to the limit", []

@@ -33,7 +33,7 @@ class Pointed:
     place: Floats | None = None
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=16)
 def row_of(trace: Trace, spot: Spot, across: str) -> Pointed | None:
     """The row of a point, read back as far as ``across`` says; None for a control point, which is given.
 
