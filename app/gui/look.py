@@ -3,10 +3,10 @@
 import re
 from functools import cache
 
-from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QIcon, QPainter, QPalette, QPixmap
+from PySide6.QtCore import QByteArray, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QIcon, QPainter, QPalette, QPen, QPixmap
 from PySide6.QtSvg import QSvgRenderer
-from PySide6.QtWidgets import QApplication, QProxyStyle, QStyle, QStyleOption, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QProxyStyle, QStyle, QStyleOption, QWidget
 
 from app import ASSETS
 from app.draw.picture import Colour
@@ -18,6 +18,9 @@ GRID = 8
 
 SCALES = (0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5)
 """How large the window can be."""
+
+TWO_COLUMNS = 1.5
+"""Up to this scale a menu that is too long for the screen has a second column; beyond it scrolls."""
 
 _scale = 1.0
 
@@ -78,6 +81,14 @@ def load_fonts() -> None:
         QFontDatabase.addApplicationFont(str(file))
 
 
+ROUND = Qt.PenCapStyle.RoundCap
+MENU_MARKS = {
+    QStyle.PrimitiveElement.PE_IndicatorMenuCheckMark: ((-4, 0), (-1, 3), (4, -3)),
+    QStyle.PrimitiveElement.PE_IndicatorArrowRight: ((-2, -4), (2, 0), (-2, 4)),
+}
+"""The strokes of ticks and arrows, in pixels at 100 % from their middle."""
+
+
 class Style(QProxyStyle):
     """Fusion with its own measures (indicators, arrows, small icons) at the scale of the window."""
 
@@ -96,6 +107,24 @@ class Style(QProxyStyle):
         finally:
             self._is_within = False
         return px(usual) if usual > 0 else usual
+
+    def drawPrimitive(
+        self,
+        element: QStyle.PrimitiveElement,
+        option: QStyleOption,
+        painter: QPainter,
+        widget: QWidget | None = None,
+    ) -> None:
+        """Fusion's ticks and arrows in menus have one size for all: ours are as large as the type."""
+        if (corners := MENU_MARKS.get(element)) is None or not isinstance(widget, QMenu):
+            super().drawPrimitive(element, option, painter, widget)
+            return
+        middle = QRectF(option.rect).center()  # type: ignore[attr-defined]
+        painter.save()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(widget.palette().windowText().color(), fine(1.6), Qt.PenStyle.SolidLine, ROUND))
+        painter.drawPolyline([middle + QPointF(fine(x), fine(y)) for x, y in corners])
+        painter.restore()
 
 
 def dress(app: QApplication, theme: Theme) -> None:
@@ -127,7 +156,7 @@ SHEET = """
 QMenuBar { background: $panel; padding: 2px 4px; border: none; }
 QMenuBar::item { padding: 4px 8px; border-radius: 4px; background: transparent; }
 QMenuBar::item:selected { background: $tint; }
-QMenu { background: $background; border: 1px solid $line; padding: 4px; menu-scrollable: 1; }
+QMenu { background: $background; border: 1px solid $line; padding: 4px; menu-scrollable: $scrolls; }
 QMenu::item { padding: 6px 28px 6px 28px; border-radius: 4px; }
 QMenu::item:selected { background: $chosen; color: $ink; }
 QMenu::item:disabled { color: $faded; }
@@ -176,7 +205,7 @@ def sheet(theme: Theme) -> str:
         "$tint": tint_of(theme), "$line": line_of(theme), "$chosen": chosen_of(theme),
         "$faded": mixed(theme.panel, theme.ink, 0.45),
     }  # fmt: skip
-    text = sized(SHEET)
+    text = sized(SHEET).replace("$scrolls", str(int(_scale > TWO_COLUMNS)))
     for word, value in words.items():
         text = text.replace(word, colour(value).name())
     return text
