@@ -8,7 +8,18 @@ from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
-from app.lab import COMFORT, LABORATORY, MOST_PANES, Lab, Rule, affordable, lab_of, lesson_of, natural_family
+from app.lab import (
+    COMFORT,
+    LABORATORY,
+    MOST_PANES,
+    Lab,
+    Rule,
+    affordable,
+    lab_of,
+    lesson_of,
+    natural_family,
+    require_playable,
+)
 from app.state import State, at_stop, choose, settle, stop_level, stops, valence_of
 from lessons.script import Lesson
 from subdivision import Boundary, Mesh, TopologyError, shapes
@@ -125,8 +136,16 @@ def drop(state: State, pane: int) -> State:
 
 
 def set_levels(state: State, levels: int) -> State:
-    """As many levels, or what can be played well."""
-    return put(state, replace(lab_in(state), levels=max(levels, 1)))
+    """As many levels.
+
+    Raises
+    ------
+    TooLarge
+        If a picture has no room for them.
+    """
+    lab = replace(lab_in(state), levels=max(levels, 1))
+    require_playable(lab)
+    return put(state, lab)
 
 
 def put(state: State, lab: Lab, *, stays: bool = False) -> State:

@@ -18,10 +18,11 @@ from app.state import State
 from app.words import LANGUAGES, speak, system_language, tr
 from lessons import own
 from lessons.script import Lesson
-from subdivision import Boundary, Mesh, Scheme, TopologyError, files, subdivide
+from subdivision import Boundary, Mesh, TopologyError, files, subdivide
 from subdivision.continuity import alpha, checked_vectors, degree, mask, promise, smoothness
 from subdivision.exact import Exact, spelled
 from subdivision.schemes import SCHEMES
+from subdivision.size import STAGED, require_room
 from subdivision.words import joined, phrase
 
 NAMES = {s.name: s for s in SCHEMES}
@@ -273,8 +274,8 @@ def subdivide_file(options: argparse.Namespace) -> None:
     mesh = files.read(options.input)
     scheme = NAMES[options.scheme]
     control = Mesh(mesh.surface.with_boundary(Boundary(options.boundary)), mesh.points)
-    _require_room(control, scheme, options.levels)
-    fine = subdivide(control, scheme, options.levels)
+    require_room(scheme, control.surface, options.levels, STAGED, options.most_faces)  # a file wants all of it
+    fine = subdivide(control, scheme, options.levels, most=options.most_faces)
     if options.limit:
         from subdivision.limit import limit_points
 
@@ -473,6 +474,9 @@ def _for_subdivide(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--levels", type=_whole, required=True, metavar="N")
     parser.add_argument("--boundary", choices=[b.value for b in Boundary], default=Boundary.EDGE.value)
     parser.add_argument("--limit", action="store_true", help="push the vertices to the limit surface")
+    parser.add_argument(
+        "--most-faces", type=_counting, metavar="N", help="make no more than so many (as many as the memory holds)"
+    )
     parser.set_defaults(run=subdivide_file)
 
 
@@ -534,35 +538,6 @@ def _turned(chosen: list[Lesson], settings: dict[str, int]) -> list[Lesson]:
                 phrase("there is no knob '{name}' here; there are {there}", name=name, there=joined(", ", there))
             )
     return [each.turned(**settings) for each in chosen]
-
-
-def _require_room(control: Mesh, scheme: Scheme, levels: int) -> None:
-    """Ask for no more levels than fit; how many faces each makes is known before it is made."""
-    for level in range(min(levels, MOST_LEVELS) + 1):
-        if (faces := scheme.faces_after(control.surface, level)) > MOST_FACES:
-            raise Fault(_too_deep(levels, level, faces))
-
-
-def _too_deep(levels: int, level: int, faces: int) -> str:
-    """What to choose instead of ``levels``, where ``level`` is the first that does not fit."""
-    if level == 0:
-        return phrase(
-            "the mesh has {faces:,} faces, and {most_faces:,} are made at most; choose a smaller mesh",
-            faces=faces,
-            most_faces=MOST_FACES,
-        )
-    return phrase(
-        "{levels} levels would make {faces:,} faces; choose fewer levels (at most {fitting}, for {most:,} faces are "
-        "made at most)"
-        if level == levels
-        else "{levels} levels would make {faces:,} faces at level {level} already; choose fewer levels (at most "
-        "{fitting}, for {most:,} faces are made at most)",
-        levels=levels,
-        faces=faces,
-        level=level,
-        fitting=level - 1,
-        most=MOST_FACES,
-    )
 
 
 def _listed(names: list[str]) -> str:

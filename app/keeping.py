@@ -25,7 +25,7 @@ from app.boxlab import LONGEST, MOST_VECTORS
 from app.draw.pointed import ACROSS
 from app.draw.surface import SHOWS
 from app.draw.theme import THEMES
-from app.lab import LABORATORY, MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, lesson_of
+from app.lab import LABORATORY, MOST_LEVELS, MOST_PANES, Lab, Rule, lesson_of, require_playable
 from app.state import VALENCES, Edits, Options, Prediction, Spot, State, settle
 from app.strict import Entry, KeepingError, parsed
 from lessons import all_lessons
@@ -405,8 +405,13 @@ def _lab(entry: Entry) -> Lab:
     control = _control(table["object"])
     rules = tuple(_rule(each, control) for each in table["rules"].rows(1, MOST_PANES))
     overlay = table["overlay"].whole(0, MOST_VECTORS) if "overlay" in table else 0
-    lab = Lab(table["name"].words(), control, rules, overlay=overlay)
-    return replace(lab, levels=table["levels"].whole(0, affordable(lab)))
+    levels = table["levels"].whole(0, MOST_LEVELS)
+    lab = Lab(table["name"].words(), control, rules, levels, overlay)
+    try:
+        require_playable(lab)
+    except TopologyError as refusal:
+        raise table["levels"].fault(str(refusal)) from None
+    return lab
 
 
 def _rule(entry: Entry, control: Mesh) -> Rule:

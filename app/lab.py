@@ -8,9 +8,10 @@ from lessons.measured import difference
 from lessons.script import Beat, Lesson, Reading, View, look_at
 from subdivision import Boundary, Mesh, Polyline, Role, Scheme, Stage, Topology, Trace, trace
 from subdivision.catalogue import FAMILIES, Value, Vectors, scheme
-from subdivision.passes import Vector, spelled
+from subdivision.passes import spelled
 from subdivision.rows import Grid
-from subdivision.schemes.box_spline import averaged, in_order, other_orders, shortened
+from subdivision.schemes.box_spline import averaged, in_order, other_orders
+from subdivision.size import TooLarge, after, lost, sample
 from subdivision.words import joined, phrase, plural
 
 LABORATORY = "laboratory"
@@ -143,6 +144,27 @@ def affordable(lab: Lab, budget: int = BUDGET) -> int:
     return min(_affordable(lab.control, rule, budget) for rule in lab.rules)
 
 
+def require_playable(lab: Lab) -> None:
+    """Ask for no more levels than a picture has room for.
+
+    Raises
+    ------
+    TooLarge
+        With the numbers, and the most levels that it has room for.
+    """
+    if lab.levels > (most := affordable(lab)):
+        faces = max(_size(lab.control, rule, min(lab.levels, MOST_LEVELS + 1)) for rule in lab.rules)
+        raise TooLarge(
+            phrase(
+                "{levels} levels would make {faces:,} faces, and a picture has room for {budget:,}; choose at most "
+                "{most}",
+                levels=lab.levels, faces=faces, budget=BUDGET, most=most,
+            )
+            if faces > BUDGET
+            else phrase("{levels} levels are more than are told; choose at most {most}", levels=lab.levels, most=most)
+        )  # fmt: skip
+
+
 def lesson_of(lab: Lab) -> Lesson:
     """The story of a laboratory: every stage of every level, all panes in step.
 
@@ -199,18 +221,13 @@ def _size(mesh: Mesh, rule: Rule, levels: int) -> int:
     t = mesh.topology
     if isinstance(t, Topology):
         return rule.scheme.faces_after(t, levels)
-    if isinstance(t, Grid) and rule.vectors:
-        return _left(t, shortened(rule.vectors), levels)
-    return int(
-        (t.n_vertices if isinstance(t, Polyline) else t.n_faces) * (2 if isinstance(t, Polyline) else 4) ** levels
-    )
+    return after(t, _lost(rule, sample(t)), levels)
 
 
-def _left(net: Grid, lost: Vector, levels: int) -> int:
-    """Faces of a net that every step shortens where it is open, then doubles."""
-    ends = zip(net.shape, lost, (net.wrap_s, net.wrap_t), strict=True)
-    sides = [n << levels if wrap else ((n - less) << levels) + less - 1 for n, less, wrap in ends]
-    return sides[0] * sides[1] * (1 + net.diagonal)
+@lru_cache(maxsize=256)
+def _lost(rule: Rule, net: Polyline | Grid) -> tuple[int, int]:
+    """By how much a rule shortens a polygon or a net; what refuses it is told elsewhere."""
+    return lost(rule.scheme, net) if rule.scheme.accepts(net) else (0, 0)
 
 
 def _beats(lab: Lab) -> Iterator[Beat]:

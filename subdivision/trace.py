@@ -11,6 +11,7 @@ from subdivision.manifold import TopologyError
 from subdivision.plan import once
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
+from subdivision.size import STAGED, SWIFT, TRACED, require_room
 from subdivision.stage import Role, Stage, Step
 from subdivision.topology import Topology
 from subdivision.words import phrase
@@ -238,8 +239,17 @@ class Trace:
         )  # fmt: skip
 
 
-def trace(scheme: Scheme, control: Mesh, telling: str | None = None, levels: int = 1) -> Trace:
-    """Subdivide ``control`` ``levels`` times and keep every stage on the way."""
+def trace(
+    scheme: Scheme, control: Mesh, telling: str | None = None, levels: int = 1, *, most: int | None = None
+) -> Trace:
+    """Subdivide ``control`` ``levels`` times and keep every stage on the way.
+
+    Raises
+    ------
+    TopologyError
+        If the scheme refuses the control object, or there is no room: for ``most`` faces, or in this machine's memory.
+    """
+    require_room(scheme, control.topology, levels, TRACED, most)
     stages: list[Stage] = []
     owner: list[int] = []
     topology = control.topology
@@ -251,11 +261,18 @@ def trace(scheme: Scheme, control: Mesh, telling: str | None = None, levels: int
     return Trace(control, scheme, telling or next(iter(scheme.tellings)), tuple(stages), tuple(owner))
 
 
-def subdivide(control: Mesh, scheme: Scheme, levels: int) -> Mesh:
+def subdivide(control: Mesh, scheme: Scheme, levels: int, *, most: int | None = None) -> Mesh:
     """The mesh after ``levels`` steps; only the last level is kept.
 
     Faces are numbered as by the stages; so are the vertices, unless there are more than some 20,000 faces:
     ``Plan.numbers`` then says where each one is.  For the same mesh with moved points keep its ``plan``.
+
+    Raises
+    ------
+    TopologyError
+        If the scheme refuses the control object, or there is no room: for ``most`` faces, or in this machine's memory.
     """
+    is_swift = scheme.reach is not None and isinstance(control.topology, Topology)
+    require_room(scheme, control.topology, levels, SWIFT if is_swift else STAGED, most)
     made = once(control.topology, scheme, levels)
     return Mesh(made.topology, frozen(made.apply(control.points)))

@@ -113,7 +113,7 @@ def test_rows_of_different_lengths_are_found_whether_alike_or_one_by_one(tmp_pat
 def test_too_many_levels_are_refused_with_the_numbers_and_the_deepest_that_fits(tmp_path, capsys, levels):
     files.write(tmp_path / "cube.obj", shapes.cube())
     arguments = ["subdivide", str(tmp_path / "cube.obj"), "-o", str(tmp_path / "x.obj"), "--scheme", "catmull-clark"]
-    assert main([*arguments, "--levels", str(levels)]) == 1
+    assert main([*arguments, "--levels", str(levels), "--most-faces", "20000000"]) == 1
     said = capsys.readouterr().err
     assert f"{levels} levels would make {6 * 4**11:,} faces" in said
-    assert "at most 10, for 20,000,000 faces are made at most" in said
+    assert "at most 10, for there is room for 20,000,000 faces" in said

@@ -99,10 +99,18 @@ def test_what_a_scheme_refuses_is_said_and_nothing_changes():
     assert state.lab is before
 
 
-def test_levels_stop_where_playing_would_not():
-    state = bench.set_levels(bench.enter(START), 99)
-    assert state.lab.levels == affordable(state.lab)
-    assert state.lab.rules[0].scheme.faces_after(state.lab.control.surface, state.lab.levels) <= BUDGET
+def test_more_levels_than_a_picture_has_room_for_are_refused_with_the_numbers_and_the_most_that_fit():
+    state = bench.enter(START)
+    most = affordable(state.lab)
+    deepest = bench.set_levels(state, most)
+    assert deepest.lab.levels == most
+    faces = deepest.lab.rules[0].scheme.faces_after(state.lab.control.surface, most)
+    assert faces <= BUDGET < 4 * faces
+    said = f"{most + 1} levels would make {4 * faces:,} faces, and a picture has room for 130,000; .* at most {most}"
+    with pytest.raises(TopologyError, match=said):
+        bench.set_levels(state, most + 1)
+    with pytest.raises(TopologyError, match=f"99 levels .* choose at most {most}"):
+        bench.set_levels(state, 99)
 
 
 def test_boundary_rules_change_the_rim_only():

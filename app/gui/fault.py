@@ -31,9 +31,6 @@ SO_OFTEN = "It has happened {count} times."
 MOST_TOLD = 5
 """Different faults that one dialog tells; more of them follow from the first."""
 
-Hook = Callable[..., None]
-
-
 class Faults(QObject):
     """Hears of every exception that nobody has caught, whatever its thread.
 
@@ -51,7 +48,7 @@ class Faults(QObject):
         self._last: Report | None = None
         self._lock = threading.Lock()
         self._is_due = False
-        self._before: tuple[Hook, Hook, Hook] | None = None
+        self._before: tuple[Any, Any, Any] | None = None
         self.dialog = FaultDialog(window)
         self._heard.connect(self._tell, Qt.ConnectionType.QueuedConnection)  # never inside the event that failed
 

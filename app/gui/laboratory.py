@@ -16,7 +16,7 @@ from app.gui.session import Session
 from app.gui.stepper import Stepper
 from app.gui.vectors import Vectors
 from app.gui.worker import Worker
-from app.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, affordable, titled
+from app.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, titled
 from app.state import State
 from app.words import tr
 from subdivision import Boundary, Topology, TopologyError, shapes
@@ -98,8 +98,7 @@ class Laboratory(QWidget):
         names = [(titled(name), name) for name in shapes.SHAPES]
         own = [] if lab.name in shapes.SHAPES else [(titled(lab.name), lab.name)]
         self.shape.show_values([*own, *names], lab.name)
-        most = min(affordable(lab), MOST_LEVELS)
-        self.levels.show_value(str(lab.levels), is_least=lab.levels <= 1, is_most=lab.levels >= most)
+        self.levels.show_value(str(lab.levels), is_least=lab.levels <= 1, is_most=lab.levels >= MOST_LEVELS)
         for pane, rule in zip(self.panes, lab.rules, strict=True):
             pane.show_rule(rule, lab.levels)
         self.more.setEnabled(len(lab.rules) < MOST_PANES)

@@ -82,14 +82,16 @@ def test_every_choice_can_be_undone_and_the_panel_follows(window):
     assert panel.shape.box.currentText() == "Cube"
 
 
-def test_a_level_too_many_is_not_offered_and_a_refusal_is_a_sentence(window, qtbot):
+def test_a_level_too_many_is_refused_with_the_numbers_and_other_refusals_are_sentences_too(window, qtbot):
     panel = open_by_keyboard(window)
     window.session.do(bench.take, "duck")
     for _ in range(10):
         panel.levels.more.click()
         qtbot.waitUntil(lambda: not panel.worker.is_busy, timeout=20000)
-    assert not panel.levels.more.isEnabled()
     before = window.session.state.lab
+    said = f"{before.levels + 1} levels would make "
+    assert said in window.banner.words.text()
+    assert f"room for 130,000; choose at most {before.levels}" in window.banner.words.text()
     panel.wish(bench.choose_family, 0, "loop")
     qtbot.waitUntil(lambda: not panel.worker.is_busy, timeout=20000)
     assert window.session.state.lab is before
