@@ -177,7 +177,8 @@ def test_the_switch_keeps_the_place_and_the_same_object_for_the_same_lesson():
         assert st.Stop(there.beat, there.at) in st.stops(CUBE)
         if not asking.is_open(st.at_stop(state, stop)):
             assert asking.toggle_asking(there).now is there.now
-    no_questions = Lesson("none", "None", "Test", lambda: iter([show(trace(QUAD_CENTROID, shapes.cube()), None, "A cube.")]))
+    still = show(trace(QUAD_CENTROID, shapes.cube()), None, "A cube.")
+    no_questions = Lesson("none", "None", "Test", lambda: iter([still]))
     assert no_questions.asking(True) is no_questions
 
 
@@ -223,7 +224,7 @@ def test_a_question_without_exactly_one_true_answer_is_refused():
         (play(told, first, "T.", predict=which("Which?", still, View(told, 0, 0))), "0 of the answers"),
         (play(told, first, "T.", predict=which("Which?", *at_rest(told, (1, ""), (1, "")))), "2 of the answers"),
         (play(told, first, "T.", predict=which("Which?", *at_rest(told, (1, "")))), "give two to 4"),
-        (show(told, None, "A.", predict=Weight("How much?", row, 5, (row.weight(0), row.weight(4)))), "0 of the answers"),
+        (show(told, None, "A.", predict=Weight("?", row, 5, (row.weight(0), row.weight(4)))), "0 of the answers"),
     ):
         with pytest.raises(ValueError, match=sentence):
             st.start(lesson(beat), st.Options(asking=True))
