@@ -11,6 +11,7 @@ import zlib
 from dataclasses import replace
 from functools import cache
 from hashlib import sha256
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from app.page import page_of
 from app.page.html import _mathematics, page
 from app.page.record import _knots, record
 from app.state import Options, at_stop, choose, start, stops
+from lessons.questions import Weight, Where
 from subdivision import Role
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
@@ -35,8 +37,8 @@ each = pytest.mark.parametrize("lesson", ALL, ids=lambda one: one.id)
 
 
 @cache
-def recorded_of(lesson):
-    return record(start(lesson))
+def recorded_of(lesson, asks=False):
+    return record(start(lesson, Options(asking=asks)))
 
 
 def written(lesson, **options):
@@ -207,9 +209,9 @@ def test_a_page_that_cannot_be_written_is_told_in_a_sentence(tmp_path, capsys):
 # -- in a browser -----------------------------------------------------------------------------
 
 
-def browsed(tmp_path, lesson, fragment, *switches):
+def browsed(tmp_path, lesson, fragment, *switches, asks=False):
     path = tmp_path / f"{lesson.id}.html"
-    path.write_bytes(page(recorded_of(lesson)))
+    path.write_bytes(page(recorded_of(lesson, asks)))
     command = [
         BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--v=0",
         f"--user-data-dir={tmp_path / 'profile'}", "--window-size=1280,800", "--virtual-time-budget=20000",
@@ -237,6 +239,24 @@ def test_every_page_plays_in_a_browser_without_a_fault_or_a_request(lesson, tmp_
     assert len(report["stops"]) == len(captions)
     for words, caption in zip(report["stops"], captions, strict=True):
         assert words.startswith(re.split(r"\$", caption)[0].strip())
+
+
+@browser
+@pytest.mark.parametrize("number", ["14", "19"])
+def test_a_page_asks_and_tells_how_near_the_prediction_was(number, tmp_path):
+    lesson = lessons.find(number)
+    shown = browsed(tmp_path, lesson, "test", "--dump-dom", asks=True)
+    (found,) = re.findall(r'<pre id="report">(.*?)</pre>', shown, re.DOTALL)
+    report, beats = json.loads(html.unescape(found)), lesson.asking(True).beats
+    assert (report["faults"], report["requests"]) == ([], [])
+    asked = [(beat.asks, answer) for beat, answer in pairwise(beats) if beat.asks]
+    for words, (question, beat) in zip(report["asked"], asked, strict=True):
+        if isinstance(question, Where):
+            assert re.fullmatch(r"Your prediction is 0\.0[1-9] of an edge away\.", words)
+        elif isinstance(question, Weight):
+            assert words == f"You said {question.answers[0]}; {question.answers[question.truth(beat)]} is true."
+        else:
+            assert words == f"You said 1; {question.truth(beat) + 1} is true."
 
 
 @browser

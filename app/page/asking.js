@@ -27,14 +27,15 @@ function chooseAnswer(k) {
   return true;
 }
 
-/** A click on the picture: a place, where one is asked for. */
+/** A click on the picture: a place where one is asked for, or a picture to choose. */
 function pointAt(x, y) {
   const { panes, still } = player.shown, asked = askedAt(still, false);
-  if (!asked?.isOpen || !asked.question.truth?.length) return;
-  const stage = $("stage"), { pane: k, truth } = asked.question;
-  const area = paneAreas(panes, stage.clientWidth, stage.clientHeight, pointOf(stage.clientWidth, stage.clientHeight))[k];
-  if (x < area.x || x > area.x + area.wide || y < area.y || y > area.y + area.tall) return;
-  say(asked.beat, sightOf(panes[k].camera, area, turn).place(x, y, truth));
+  if (!asked?.isOpen) return;
+  const { clientWidth: wide, clientHeight: tall } = $("stage"), { pane, truth, pictures, answers } = asked.question;
+  const areas = paneAreas(panes, wide, tall, pointOf(wide, tall));
+  const k = areas.findIndex((a) => x >= a.x && x < a.x + a.wide && y >= a.y && y < a.y + a.tall);
+  if (pictures && k >= 0) say(asked.beat, k);
+  if (!answers && k === pane) say(asked.beat, sightOf(panes[k].camera, areas[k], turn).place(x, y, truth));
 }
 
 /** What stands below the caption: answers to choose from, or what became of what was said. */

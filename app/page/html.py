@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from app import ASSETS
-from app.draw import solid
+from app.draw import pins, solid
 from app.draw.flat import FLAT, Disc, Polygon, Ring
 from app.draw.layout import PANE_TITLE
 from app.draw.markup import code, number
@@ -34,7 +34,8 @@ from app.words import language, tr
 from subdivision.words import phrase
 
 HERE = Path(__file__).parent
-SCRIPTS = ("space.js", "surface.js", "flat.js", "scene.js", "record.js", "picture.js", "player.js", "page.js")
+SCRIPTS = ("space.js", "surface.js", "flat.js", "scene.js", "record.js", "picture.js", "player.js", "asking.js",
+           "page.js")  # fmt: skip
 
 BUTTONS = (
     ("first", "First step", ("first",)),
@@ -232,7 +233,8 @@ def looks(recorded: Record) -> Mapping[str, Any]:
         "diamond": _solid(solid.OCTAHEDRON), "cube": _solid(solid.CUBE),
         "flat": {shape.value: [_part(part) for part in parts] for shape, parts in FLAT.items()},
         "type": PANE_TITLE, "em": EM,
-        **{name: recorded.tables.colour(getattr(theme, name)) for name in ("background", "ink", "muted")},
+        **{name: recorded.tables.colour(getattr(theme, name)) for name in ("background", "ink", "muted", "guess")},
+        "pin": pins.SIZE, "tie": pins.TIE, "ground": pins.GROUND,
     }  # fmt: skip
 
 

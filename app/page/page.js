@@ -29,7 +29,9 @@ function draw(fine) {
   const density = Math.min(devicePixelRatio || 1, 2);
   tell(shown); // first, for the words leave the stage its room
   const size = { wide: stage.clientWidth, tall: stage.clientHeight };
-  drawPicture($("picture"), shown, { ...size, density, fine: fine / Math.max(density, 1), turn, isDark: isDark() });
+  const asked = askedAt(shown.still, player.going.way !== 0);
+  const over = (pen, sights, point, paint) => drawSaid(pen, asked, sights, point, paint);
+  drawPicture($("picture"), shown, { ...size, density, fine: fine / Math.max(density, 1), turn, over, isDark: isDark() });
 }
 
 // -- words ------------------------------------------------------------------------------------
@@ -49,11 +51,13 @@ function tell({ still, corner, legend }) {
   $("play").setAttribute("aria-pressed", String(player.isThrough));
   $("play").classList.toggle("playing", player.isThrough);
   tellLegend(legend);
-  const key = `${number} ${isDark()}`;
+  const asked = askedAt(still, player.going.way !== 0);
+  const key = `${number} ${isDark()} ${asked?.said} ${asked?.isTold}`;
   if (told === key) return;
   told = key;
   const item = steps()[number];
-  $("words").replaceChildren(...[...item.querySelectorAll(".caption, .formula")].map((each) => each.cloneNode(true)));
+  const copies = [...item.querySelectorAll(".caption, .formula")].map((each) => each.cloneNode(true));
+  $("words").replaceChildren(...copies, ...askedWords(asked));
   $("picture").setAttribute("aria-label", `${spokenStep(number)}: ${lesson.captions[number]}`);
   $("count").textContent = `${number + 1} / ${lesson.stops.length}`;
   $("slider").value = number + 1;
@@ -97,6 +101,8 @@ const KEYS = {
   r: () => seeFrom(REST),
 };
 
+const CLICK = 5; // pixels: a pointer that moves less has clicked
+
 const TURNS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 function onward(way) {
@@ -128,6 +134,8 @@ function typed(event) {
     return; // the button that has the focus is meant
   } else if (event.target.matches("input") && /^(Arrow|Home|End|Page)/.test(event.key)) {
     return; // the slider moves by itself
+  } else if (/^[1-9]$/.test(event.key) && chooseAnswer(Number(event.key) - 1)) {
+    return;
   } else if (KEYS[event.key]) {
     KEYS[event.key]();
   } else {
@@ -147,6 +155,7 @@ function fromAddress() {
 // -- turning ----------------------------------------------------------------------------------
 
 const fingers = new Map();
+let touched = null;
 
 function seeFrom(there) {
   turn = there;
@@ -167,6 +176,7 @@ function zoom(factor) {
 
 function pressed(event) {
   fingers.set(event.pointerId, [event.clientX, event.clientY]);
+  touched = fingers.size === 1 ? [event.clientX, event.clientY] : null;
   $("stage").setPointerCapture(event.pointerId);
 }
 
@@ -189,6 +199,9 @@ function moved(event) {
 }
 
 function released(event) {
+  const { left, top } = $("stage").getBoundingClientRect(), [x, y] = touched ?? [];
+  const isClick = touched && event.type === "pointerup" && Math.hypot(event.clientX - x, event.clientY - y) < CLICK;
+  if (isClick) pointAt(event.clientX - left, event.clientY - top);
   fingers.delete(event.pointerId);
   refresh();
 }
@@ -227,6 +240,24 @@ function printed() {
 
 const testing = location.hash === "#test";
 
+/** Say something to a question, and read what the page makes of it beside the answer. */
+function answeredWrongly(still, k) {
+  player.go(k);
+  draw(1);
+  const { answers, truth, pane } = still.question;
+  if (answers) {
+    document.querySelectorAll(".asked button")[truth ? 0 : 1].click();
+  } else {
+    const stage = $("stage"), size = [stage.clientWidth, stage.clientHeight];
+    const area = paneAreas(still.panes, ...size, pointOf(...size))[pane];
+    const [x, y] = sightOf(still.panes[pane].camera, area, turn).project(truth);
+    pointAt(x + 20, y);
+  }
+  player.go(lesson.stops.findLastIndex((stop) => stop.beat === still.beat + 1));
+  draw(1);
+  return document.querySelector("#words .asked").textContent;
+}
+
 /** Draw every stop and every leg, and write into the page what there was to see and what went wrong. */
 function testAll() {
   const report = { stops: [], legs: 0, frames: 0, slowest: 0 };
@@ -247,6 +278,7 @@ function testAll() {
       timed();
     }
   }
+  report.asked = lesson.stops.flatMap((still, k) => (still.question ? [answeredWrongly(still, k)] : []));
   player.go(player.last);
   for (let k = 0; k < player.last; k += 1) player.back();
   player.settle();
@@ -295,7 +327,7 @@ async function begin() {
   if (!("DecompressionStream" in window)) throw new Error("this browser is too old for the page: update it");
   lesson = new Lesson(await unpacked($("lesson").textContent));
   LOOKS = lesson.looks;
-  for (const name of ["background", "ink", "muted"]) LOOKS[name] = lesson.palette[LOOKS[name]];
+  for (const name of ["background", "ink", "muted", "guess"]) LOOKS[name] = lesson.palette[LOOKS[name]];
   TEXTS = lesson.texts;
   player = new Player(lesson, refresh);
   document.body.classList.add("ready");

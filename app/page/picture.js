@@ -18,9 +18,9 @@ const pointOf = (wide, tall) => clamp(tall / 740, 0.5, Math.max(wide / 900, 0.62
 /**
  * Draw one instant.
  * `shown` has the panes and, for each of them, the parts that are there; `density` device pixels are a pixel;
- * `fine` is how finely surfaces are drawn, in parts of a device pixel.
+ * `over` is called to draw what comes last; `fine` is how finely surfaces are drawn, in parts of a device pixel.
  */
-function drawPicture(canvas, shown, { wide, tall, density, fine, turn, isDark, isPaper }) {
+function drawPicture(canvas, shown, { wide, tall, density, fine, turn, isDark, isPaper, over }) {
   canvas.width = Math.round(wide * density);
   canvas.height = Math.round(tall * density);
   const pen = canvas.getContext("2d");
@@ -48,6 +48,7 @@ function drawPicture(canvas, shown, { wide, tall, density, fine, turn, isDark, i
     if ("title" in pane) drawCentred(pen, pane.title, area, area.y - 0.4 * size, size, paint(LOOKS.muted));
     if ("reading" in pane) drawCentred(pen, pane.reading, area, area.y + area.tall + 0.95 * size, size, paint(LOOKS.ink));
   });
+  over?.(pen, sights, point, paint);
 }
 
 function sightOf(camera, area, turn) {

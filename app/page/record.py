@@ -12,14 +12,18 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from app import asking
 from app.draw.compose import compose, said
 from app.draw.layout import overlay, pane_areas
 from app.draw.motion import eased
 from app.draw.picture import Camera, Colour, Diagram, Pane, Picture, Scene
 from app.draw.primitives import Area, Mark, Plate, Primitive, Stroke, Text
+from app.draw.theme import THEMES
 from app.page.tables import Tables
 from app.state import State, Stop, at_stop, choose, start, stops
+from lessons.questions import Weight, Where, Which
 from subdivision.arrays import Floats
+from subdivision.exact import spelled
 
 WIDTH, HEIGHT = 1600.0, 900.0
 """Diagrams are laid out for a picture of so many pixels; the player scales their panes."""
@@ -65,6 +69,7 @@ def record(state: State, progress: Callable[[float], None] = lambda done: None) 
     light = start(state.lesson, replace(state.options, theme="light", presenting=False, blank=False))
     light = replace(light, edits=state.edits, lab=state.lab)
     tables = Tables(*_box(light))
+    tables.dark[THEMES["light"].guess] = THEMES["dark"].guess
     places = stops(light.lesson)
     stills = [at_stop(light, stop) for stop in places]
     legs = [None]
@@ -104,6 +109,7 @@ def _still(state: State, tables: Tables) -> Value:
     panes = _panes(picture, tables)
     return {
         "beat": state.beat,
+        **({"question": _question(state)} if asking.is_open(state) else {}),
         "corner": picture.corner,
         "legend": _legend(picture, tables),
         "panes": [
@@ -111,6 +117,23 @@ def _still(state: State, tables: Tables) -> Value:
             for pane, parts in zip(picture.panes, panes, strict=True)
         ],
     }
+
+
+def _question(state: State) -> Value:
+    """What is asked at a stop, and the answer."""
+    question, beat = state.now.asks, asking.answer(state)
+    if isinstance(question, Where):
+        return {
+            "pane": question.pane,
+            "truth": asking.place(state, question).tolist(),
+            "edge": asking.edge(state, question),
+        }
+    if isinstance(question, Weight):
+        return {"answers": list(map(spelled, question.answers)), "truth": question.truth(beat)}
+    if isinstance(question, Which):
+        numbers = [str(k) for k, _ in enumerate(question.answers, 1)]
+        return {"answers": numbers, "truth": question.truth(beat), "pictures": True}
+    raise ValueError("nothing is asked here")
 
 
 def _leg(state: State, before: Stop, stop: Stop, tables: Tables) -> Value:

@@ -83,6 +83,14 @@ class Sight {
     return flat;
   }
 
+  /** The place of space that is seen at a pixel, as far from the eye as another place is. */
+  place(x, y, beside) {
+    const depth = this.project(beside)[2], scale = this.perUnit(depth), { area, ahead, right, up } = this;
+    const aside = (x - area.x - area.wide / 2) / scale, above = (area.y + area.tall / 2 - y) / scale;
+    const inside = plus(times(ahead, depth), plus(times(right, aside), times(up, above)));
+    return plus(this.camera.position, inside);
+  }
+
   /** A direction of space as (right, up, towards the eye). */
   turn(x, y, z) {
     const { right, up, ahead } = this;
