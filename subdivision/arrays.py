@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Indices: TypeAlias = NDArray[np.signedinteger[Any]]
+Small: TypeAlias = NDArray[np.int32]
+"""As scipy wants them."""
 Floats: TypeAlias = NDArray[np.float64]
 Mask: TypeAlias = NDArray[np.bool_]
 Scalar = TypeVar("Scalar", bound=np.generic)

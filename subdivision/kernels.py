@@ -11,16 +11,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import _sparsetools, csr_array, diags_array, vstack
 
 from subdivision import refine
-from subdivision.arrays import Floats, Indices, taken
+from subdivision.arrays import Floats, Indices, Small, taken
 from subdivision.exact import Exact
 from subdivision.sharp_rows import SharpRows, sharp_rows
 from subdivision.topology import Topology
 
-Small = NDArray[np.int32]
 Reach = Callable[[int], Exact | int]
 """Valence -> how far a smooth vertex goes to the mean of its ring."""
 

@@ -15,8 +15,8 @@ import numpy as np
 from scipy.sparse import _sparsetools
 
 from subdivision import refine
-from subdivision.arrays import Floats, Indices, taken
-from subdivision.kernels import Rule, Small
+from subdivision.arrays import Floats, Indices, Small, taken
+from subdivision.kernels import Rule
 from subdivision.sharp_rows import SharpRows, sharp_rows
 from subdivision.topology import Topology
 

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import _sparsetools, csr_array, diags_array
 
-from subdivision.arrays import Floats, Indices, taken
+from subdivision.arrays import Floats, Indices, Small, taken
 from subdivision.sharpness import CORNER, CREASE, SMOOTH, vertex_rules
 from subdivision.topology import Topology
 
@@ -43,8 +43,8 @@ class SharpRows:
         These edges go ``share`` of the way to their midpoints.
     vertices, smooth, keep : (m,) int, (m, 1) float, (m, 1) float
         These vertices hold so much of their smooth place, and so much of where they were,
-    along : (m, n_vertices) float
-        and so much of their neighbours along creases.
+    at, towards, weight : (k,) int, (k,) int, (k,) float
+        and, the one with this place among them, so much of a neighbour along a crease.
     """
 
     edges: Indices
@@ -53,7 +53,9 @@ class SharpRows:
     vertices: Indices
     smooth: Floats
     keep: Floats
-    along: csr_array
+    at: Small
+    towards: Small
+    weight: Floats
 
     def apply(self, points: Floats, vertices: Floats, edges: Floats) -> None:
         """Make over what was made of ``points``."""
@@ -64,20 +66,22 @@ class SharpRows:
         edges[self.edges] = smooth + self.share * (midpoints - smooth)
         moved = self.smooth * taken(vertices, self.vertices)
         moved += self.keep * taken(points, self.vertices)
-        moved += self.along @ points
+        _sparsetools.coo_matmat_dense(
+            len(self.at), points.shape[1], self.at, self.towards, self.weight, points.reshape(-1), moved.reshape(-1)
+        )
         vertices[self.vertices] = moved
 
     def assembled(self, vertices: csr_array, edges: csr_array) -> tuple[csr_array, csr_array]:
         """The same done to matrices."""
         V, E = vertices.shape[1], edges.shape[0]
-        n, m = len(self.edges), len(self.vertices)
+        n = len(self.edges)
         share, smooth = np.zeros(E), np.ones(V)
         share[self.edges], smooth[self.vertices] = self.share.ravel(), self.smooth.ravel()
         halves = csr_array((np.full(2 * n, 0.5), (np.repeat(self.edges, 2), self.ends.ravel())), shape=(E, V))
         keep = csr_array((self.keep.ravel(), (self.vertices, self.vertices)), shape=(V, V))
-        place = csr_array((np.ones(m), (self.vertices, np.arange(m))), shape=(V, m))
+        along = csr_array((self.weight, (self.vertices[self.at], self.towards)), shape=(V, V))
         return (
-            csr_array(diags_array(smooth) @ vertices + keep + place @ self.along),
+            csr_array(diags_array(smooth) @ vertices + keep + along),
             csr_array(diags_array(1 - share) @ edges + diags_array(share) @ halves),
         )
 
@@ -112,9 +116,8 @@ def sharp_rows(t: Topology) -> SharpRows | None:
     towards = np.concatenate([pair[:, ::-1].T.ravel() for pair in ends])
     held = [share * (rule == CREASE) for rule, share, _ in parts]
     weight = np.concatenate([some[pair.T.ravel()] / 8 for some, pair in zip(held, ends, strict=True)])
-    along = csr_array((weight, (at, sharp.vertices[towards])), shape=(sharp.n_vertices, t.n_vertices))
     share = np.minimum(sharp.edge_sharpness, 1)[:, None]
     return SharpRows(
         sharp.edges, sharp.vertices[sharp.ends], share, sharp.vertices, smooth[:, None],
-        (keep + 3 / 4 * crease)[:, None], along,
+        (keep + 3 / 4 * crease)[:, None], at.astype(np.int32), sharp.vertices[towards].astype(np.int32), weight,
     )  # fmt: skip

@@ -283,7 +283,10 @@ def _crease_sharpness(ends: Indices, creases: Mapping[tuple[int, int], float]) -
         raise TopologyError(
             phrase("there is no edge between vertices {a} and {b} to crease", a=pair[0], b=pair[1]), vertices=pair
         )
-    sharpness[found] = [_checked(value) for value in creases.values()]
+    values = np.array(list(creases.values()), dtype=float)
+    if not (values >= 0).all():
+        _checked(float(values[~(values >= 0)][0]))
+    sharpness[found] = np.minimum(values, INFINITELY_SHARP)
     return sharpness
 
 
