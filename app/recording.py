@@ -6,8 +6,6 @@ where its picture is another one, what differs is said.
 """
 
 import ast
-import re
-import tokenize
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
@@ -19,18 +17,15 @@ from app.draw.compose import compose
 from app.draw.picture import Picture
 from app.draw.pointed import row_of
 from app.draw.seen import from_there
+from app.pieces import RecordingError, added, assignments, number, plain, string, whole, wrapped
 from app.rebuilt import EXACT, Source, quote_of, quoting, rebuilt
 from app.state import State, at_stop, choose, edited, start, stops
 from lessons.own import LessonError, load
 from lessons.script import Beat, Kind, Lesson, View, look_at
 from lessons.turn import REST
-from subdivision import Mesh, TopologyError, Trace, files
+from subdivision import Mesh, Step, TopologyError, Trace, files
 from subdivision.files.saving import save
 from subdivision.words import phrase
-
-WIDTH = 120
-PIECE = 84
-"""Letters of a sentence that stand together."""
 
 HEAD = '''\
 """{title}: steps recorded from the window."""
@@ -43,13 +38,6 @@ from lessons.script import Beat, lesson
 @lesson("{title}")
 def {id}() -> Iterator[Beat]:
 '''
-
-
-OURS = ("lessons", "subdivision")
-
-
-class RecordingError(ValueError):
-    """Why a view cannot be recorded, in a sentence."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +77,8 @@ def recorded(state: State, path: Path, title: str, id_: str, taken: Collection[s
     before = _text_of(path)
     old = before or HEAD.format(title=title, id=id_)
     lines = _Lines(state, old, _free_stem(path))
-    found = Recorded(path, before, _added(old, lines, path.name), lines.meshes)
+    text = added(old, lines.body, lines.names, path.name)
+    found = Recorded(path, before, text, lines.meshes)
     what = _difference(state, found, taken)
     return replace(found, differs=CALLED.get(what, ELSE) if what else lines.left_out)
 
@@ -127,8 +116,8 @@ class _Lines:
         self.assigned: list[str] = []
         self.left_out = ""
         self._state, self._stem = state, stem
-        self._known = _assignments(old)
-        self._used = {node.id for node in ast.walk(ast.parse(_whole(old))) if isinstance(node, ast.Name)}
+        self._known = assignments(old)
+        self._used = {node.id for node in ast.walk(ast.parse(whole(old))) if isinstance(node, ast.Name)}
         self._traces: dict[Trace, str] = {}
         self._undragged: dict[Trace, str] = {}
         self.beat = self._beat()
@@ -163,19 +152,26 @@ class _Lines:
         self.assigned.append(f"{name} = {source.text}")
         return name
 
+    @property
+    def body(self) -> list[str]:
+        """The lines of the lesson."""
+        where = f"'{self._state.lesson.title}', step {_step_number(self._state)}"
+        return [f"    # Recorded from {where}; change the words.",
+                *(wrapped(f"    {line}", 8) for line in self.assigned), self.beat]  # fmt: skip
+
     # -- the beat
 
     def _beat(self) -> str:
         state, beat = self._state, self._state.now
         begin = _before(state)
         views = [self._view(view, k, begin) for k, view in enumerate(beat.views)]
-        said = [_string(beat.text)]
+        said = [string(beat.text)]
         if beat.look != look_at(beat.lead.trace) or state.turn != REST:
             said.append(f"look={self._look(beat)}")
-        said += [f"{name}={_string(getattr(beat, name))}" for name in ("formula", "notes") if getattr(beat, name)]
+        said += [f"{name}={string(getattr(beat, name))}" for name in ("formula", "notes") if getattr(beat, name)]
         self.names.add(("lessons.script", "side_by_side"))
         head = "    yield side_by_side("
-        return _wrapped(f"{head}{', '.join([said[0], *views, *said[1:]])})", len(head))
+        return wrapped(f"{head}{', '.join([said[0], *views, *said[1:]])})", len(head))
 
     def _look(self, seen: Any) -> str:
         """Where a camera stands, and how the hand has turned it from there."""
@@ -185,21 +181,21 @@ class _Lines:
                 if f.name != "turned" and getattr(look, f.name) != f.default]  # fmt: skip
         if turns:
             self.names.add(("lessons.turn", "Turn"))
-            each = [_plain("Turn", turn) for turn in turns]
+            each = [plain("Turn", turn) for turn in turns]
             told.append(f"turned=({', '.join(each)},)")
         self.names.add(("lessons.script", "Look"))
         return f"Look({', '.join(told)})"
 
-    def _view(self, view: View, number: int, begin: float) -> str:
+    def _view(self, view: View, pane: int, begin: float) -> str:
         state = self._state
-        name = self._named(view, phrase("pane {number}", number=number + 1))
+        name = self._named(view, phrase("pane {number}", number=pane + 1))
         at = view.at(state.progress)
-        told = [name, _number(view.at(begin)), _number(at)]
+        told = [name, number(view.at(begin)), number(at)]
         if view.kind is not Kind.SCENE:
             self.names.add(("lessons.script", "Kind"))
             told.append(f"Kind.{view.kind.name}")
-        told += [f"{f}={_string(getattr(view, f))}" for f in ("title",) if view.title]
-        told += self._stencil(view, number, name, at)
+        told += [f"{f}={string(getattr(view, f))}" for f in ("title",) if view.title]
+        told += self._stencil(view, name, at)
         told += [f"marks={view.marks!r}"] if view.marks else []
         if view.look is not None:
             told.append(f"look={self._look(view.look)}")
@@ -208,14 +204,14 @@ class _Lines:
         elif view.framed is not None:
             told.append(f"framed={self._named(replace(view, trace=view.framed), 'what the camera sees')}")
         if view.over is not None:
-            over = self._named(view.over, phrase("what lies over pane {number}", number=number + 1))
-            told.append(f"over=View({over}, {_number(view.over.at(begin))}, {_number(view.over.at(state.progress))})")
+            over = self._named(view.over, phrase("what lies over pane {number}", number=pane + 1))
+            told.append(f"over=View({over}, {number(view.over.at(begin))}, {number(view.over.at(state.progress))})")
         told += self._reading(view)
         told += ["isophotes=True"] if view.isophotes else []
         self.names.add(("lessons.script", "View"))
         return f"View({', '.join(told)})"
 
-    def _stencil(self, view: View, number: int, name: str, at: float) -> list[str]:
+    def _stencil(self, view: View, name: str, at: float) -> list[str]:
         """The row that is pointed out: that of the point in focus, else the lesson's own at the end of its beat."""
         state, spot = self._state, self._state.focus
         if spot is not None and state.now.views[spot.pane].trace is view.trace and spot.stage == at > 0:
@@ -243,13 +239,17 @@ class _Lines:
             self.names.add((module, name))
             return [f"reading={name}"]
         where = quote_of(view.trace, self._state)
-        if where is not None and module.startswith("lessons."):
+        if where is not None and where.lesson == self._state.lesson.id:
             where = replace(where, beat=self._state.lesson.asking(False).beats.index(self._state.now),
                             pane=self._state.now.views.index(view))  # fmt: skip
             self.names.add(("lessons.recorded", "quoted"))
             return [f"reading={quoting(where)}.reading"]
         self.left_out = "what is measured below a pane"
         return []
+
+
+def _step_number(state: State) -> int:
+    return 1 + sum((s.beat, s.at) < (state.beat, state.at) for s in stops(state.lesson))
 
 
 def _before(state: State) -> float:
@@ -260,9 +260,7 @@ def _before(state: State) -> float:
     return beat.progress(max(at - 1, beat.start))
 
 
-def _step(trace: Trace, stage: int, span: int) -> Any:
-    from subdivision import Step
-
+def _step(trace: Trace, stage: int, span: int) -> Step:
     return Step(trace.stages[stage - span : stage])
 
 
@@ -277,145 +275,6 @@ def _row(name: str, trace: Trace, stage: int, span: int, point: int, names: set[
         names.add(("subdivision", "Step"))
         made = f"Step({name}.stages[{stage - span}:{stage}])"
     return [f"stencil={made}.stencil({point})", *([f"span={span}"] if span != 1 else [])]
-
-
-# -- Python -----------------------------------------------------------------------------------
-
-
-def _string(text: str) -> str:
-    """A text as Python writes it, in the house's quotes: a formula raw, a long sentence in pieces."""
-    is_raw = "\\" in text and '"' not in text and not text.endswith("\\") and text.isprintable()
-    pieces = re.findall(rf".{{1,{PIECE}}}(?:\s+|$)|.{{1,{PIECE}}}(?<!\\)", str.__str__(text), re.DOTALL) or [""]
-    return " ".join(f'r"{piece}"' if is_raw else _quoted(piece) for piece in pieces)
-
-
-def _quoted(piece: str) -> str:
-    plain = repr(piece)
-    return f'"{plain[1:-1]}"' if plain[0] == "'" and '"' not in plain and "\\'" not in plain else plain
-
-
-def _number(at: float) -> str:
-    return str(int(at)) if at == int(at) else repr(float(at))
-
-
-def _plain(name: str, value: Any) -> str:
-    told = (f"{f.name}={float(getattr(value, f.name))!r}" for f in fields(value)
-            if getattr(value, f.name) != f.default)  # fmt: skip
-    return f"{name}({', '.join(told)})"
-
-
-def _wrapped(line: str, hang: int) -> str:
-    """A statement in lines of at most ``WIDTH``, broken after commas and between strings."""
-    lines, begin, room, places = [], 0, WIDTH, list(_places(line))
-    while len(line) - begin > room:
-        later = [
-            (p > begin + room, p <= begin + room // 3, depth, abs(begin + room - p)) for depth, p in places if p > begin
-        ]
-        if not later:
-            break
-        best = min(later)
-        at = begin + room + (best[3] if best[0] else -best[3])
-        lines.append(line[begin:at])
-        begin, room = at + 1, WIDTH - hang
-    lines.append(line[begin:])
-    return f"\n{' ' * hang}".join(lines)
-
-
-def _places(line: str) -> Iterator[tuple[int, int]]:
-    """Where a statement may be broken: how deep in brackets, and after how many letters."""
-    depth, was_string = 0, -1
-    for token in tokenize.generate_tokens(iter([line]).__next__):
-        if was_string >= 0 and token.type == tokenize.STRING:
-            yield depth, was_string
-        depth += (token.string in tuple("([{")) - (token.string in tuple(")]}"))
-        was_string = token.end[1] if token.type == tokenize.STRING else -1
-        if token.string == ",":
-            yield depth, token.end[1]
-
-
-def _whole(text: str) -> str:
-    """A file that can be parsed: a new one has no body yet."""
-    return f"{text}    pass\n" if text.rstrip().endswith(":") else text
-
-
-def _assignments(text: str) -> dict[str, str]:
-    """Every expression that is assigned to one name in a lesson, and the name."""
-    try:
-        tree = ast.parse(_whole(text))
-    except SyntaxError as error:
-        raise RecordingError(phrase("line {line} is not Python; mend it first", line=error.lineno or 0)) from None
-    found = (node for node in ast.walk(tree) if isinstance(node, ast.Assign))
-    return {ast.unparse(n.value): n.targets[0].id for n in found if isinstance(n.targets[0], ast.Name)}
-
-
-def _added(old: str, lines: _Lines, name: str) -> str:
-    """The file with the lines at the end of its lesson, and with the imports they need."""
-    tree = ast.parse(_whole(old))
-    told = [node for node in tree.body if isinstance(node, ast.FunctionDef) and _is_lesson(node)]
-    if not told:
-        raise RecordingError(phrase("{file} has no lesson to add to; choose another file", file=name))
-    body = [
-        f"    # Recorded from '{lines._state.lesson.title}', step {_step_number(lines._state)}; change the words.",
-        *(_wrapped(f"    {line}", 8) for line in lines.assigned),
-        lines.beat,
-    ]
-    rows = old.splitlines()
-    end = told[-1].end_lineno or len(rows)
-    is_new = _whole(old) != old
-    at = len(rows) if is_new else end
-    rows[at:at] = body if is_new else ["", *body]
-    return "\n".join(_with_imports(rows, tree, lines.names)) + "\n"
-
-
-def _is_lesson(node: ast.FunctionDef) -> bool:
-    return any("lesson" in ast.unparse(each) for each in node.decorator_list)
-
-
-def _step_number(state: State) -> int:
-    return 1 + sum((s.beat, s.at) < (state.beat, state.at) for s in stops(state.lesson))
-
-
-def _with_imports(rows: list[str], tree: ast.Module, names: set[tuple[str, str]]) -> list[str]:
-    """The file with what is not there yet imported, where it belongs."""
-    nodes = [node for node in tree.body if isinstance(node, ast.ImportFrom)]
-    there = {(node.module or "", alias.name) for node in nodes for alias in node.names}
-    found, changes, spans = (
-        list(rows),
-        [],
-        {node.module: node for node in nodes if all(a.asname is None for a in node.names)},
-    )
-    for module in sorted({module for module, _ in names - there}):
-        wanted = {name for of, name in names - there if of == module}
-        if (node := spans.get(module)) is not None:
-            wanted |= {alias.name for alias in node.names}
-            first, end = node.lineno - 1, node.end_lineno or node.lineno
-        else:
-            first = end = _place_for(module, tree)
-        line = f"from {module} import {', '.join(sorted(wanted, key=lambda n: (not n.isupper(), n[0].islower(), n)))}"
-        changes.append((first, end, [line] if len(line) <= WIDTH else _in_brackets(line)))
-    for first, end, lines in sorted(changes, reverse=True):  # from below, so that lines above keep their numbers
-        found[first:end] = lines
-    return found
-
-
-def _place_for(module: str, tree: ast.Module) -> int:
-    """After how many lines a module is imported: before the first one of ours that sorts after it."""
-    ours = [n for n in tree.body if isinstance(n, ast.ImportFrom) and (n.module or "").split(".")[0] in OURS]
-    if module.split(".")[0] not in OURS:
-        return next((n.lineno - 1 for n in tree.body if isinstance(n, ast.Import | ast.ImportFrom)), 0)
-    after = [n.lineno - 1 for n in ours if (n.module or "") > module]
-    return min(after) if after else max((n.end_lineno or 0 for n in ours), default=_docstring_end(tree))
-
-
-def _docstring_end(tree: ast.Module) -> int:
-    first = tree.body[0]
-    is_docstring = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
-    return (first.end_lineno or 0) if is_docstring else 0
-
-
-def _in_brackets(line: str) -> list[str]:
-    head, _, names = line.partition(" import ")
-    return [f"{head} import (", *(f"    {name}," for name in names.split(", ")), ")"]
 
 
 def _free_stem(path: Path) -> str:

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
+from functools import wraps
 from pathlib import Path
 from types import ModuleType, TracebackType
 from typing import Any
@@ -198,6 +199,7 @@ def _guarded(view: View, path: Path, tell: Callable[[Fault], None]) -> View:
         return view
     reading: Reading = view.reading
 
+    @wraps(reading)
     def measured(*meshes: Any) -> str:
         try:
             return reading(*meshes)

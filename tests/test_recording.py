@@ -7,7 +7,8 @@ import pytest
 import lessons
 from app import bench, boxlab
 from app.draw.seen import from_there
-from app.recording import RecordingError, difference, picture, recorded, shown
+from app.pieces import RecordingError
+from app.recording import difference, picture, recorded, shown
 from app.shelf import ids, loaded
 from app.state import Spot, at_stop, choose, drag, last, look, open_lesson, seek, skip, start, stops, turn_view
 from app.trial import tried
@@ -107,6 +108,8 @@ def test_a_step_is_added_to_a_lesson_and_all_that_was_there_stays(tmp_path):
 def test_recording_goes_on_from_a_recorded_lesson(tmp_path):
     first = again(turn_view(drag(last(bench.enter(CUBE)), 0, (1.5, 1.5, 1.5)), TURN), tmp_path / "first.py")
     assert same(turn_view(first, TURN), tmp_path / "second.py")
+    measured = again(last(start(lessons.find("exercise_7"))), tmp_path / "measured.py")
+    assert same(measured, tmp_path / "measured_again.py")
     quoted = again(at_stop(start(lessons.find("13")), stops(lessons.find("13"))[2]), tmp_path / "third.py")
     assert same(quoted, tmp_path / "fourth.py")
 

@@ -263,6 +263,7 @@ class Authoring(QObject):
         self._said = {each for each in self._said if each.file != path.name}
         self._publish()
         for each in made:
+            self._window.document.rewrite(retold, each)
             self._window.session.rewrite(retold, each)
         expected = self._expected.pop(path, "")
         if outcome.remark is not None:

@@ -1,7 +1,9 @@
 """The session in a file: which one is open, whether it has changed since, and what was open before."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QSettings
 
@@ -25,6 +27,10 @@ class Document:
     def is_modified(self) -> bool:
         """Whether saving would change the file."""
         return self.path is not None and not is_same_picture(self._saved, self._session.state)
+
+    def rewrite(self, transition: Callable[..., State], *args: Any) -> None:
+        """What the state in the file is told from has changed: it is still what was saved."""
+        self._saved = transition(self._saved, *args)
 
     def save(self, path: Path) -> Path:
         """Keep the state in a file, and that file open.

@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QFileDialog
 from app import shelf
 from app.beginning import SUFFIX, file_in, free_file, identifier, titled
 from app.gui.worker import Worker
-from app.recording import Recorded, RecordingError, recorded
+from app.pieces import RecordingError
+from app.recording import Recorded, recorded
 from app.state import State, settle
 from app.words import tr
 from subdivision.files import FileError

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
 import lessons
 from app import bench
@@ -17,6 +17,13 @@ from app.shelf import remembered
 from app.state import at_stop, drag, last, open_lesson, skip, start, stops
 
 pytestmark = pytest.mark.window
+
+
+@pytest.fixture(autouse=True)
+def no_question(monkeypatch):
+    """The question at the end is answered by whoever asks for it."""
+    monkeypatch.setattr("app.gui.window.Window.ask_to_save", lambda _: QMessageBox.StandardButton.Discard)
+
 
 HEAD = """\
 from lessons.script import lesson, play, show
@@ -104,10 +111,12 @@ def test_a_file_that_changes_is_shown_again_at_its_place_and_a_broken_one_is_nam
     session.do(last)
     session.do(drag, 0, (2.0, 2.0, 2.0))
     at = session.state.at
+    window.save_session_to(folder.parent / "talk.subdivision")
     file.write_text(HEAD.replace('"Topology."', '"New words."'))
     qtbot.waitUntil(lambda: session.state.now.text == "New words.", timeout=20_000)
     assert (session.state.at, session.state.edits) == (at, ((0, (2.0, 2.0, 2.0)),))
     assert window.banner.words.text() == "Reloaded corner.py"
+    assert not window.isWindowModified()
     session.undo()
     assert session.state.now.text == "New words."
     assert session.state.edits == ()
