@@ -21,6 +21,7 @@ from app.draw.compose import compose
 from app.draw.layout import overlay
 from app.state import State, at_stop, stops
 from lessons.own import MEND, Fault, LessonError, fault_of, faults_named, first_line, load, text_at
+from lessons.questions import checked
 from lessons.script import Beat, Lesson
 from subdivision import Trace
 from subdivision.words import phrase
@@ -159,6 +160,12 @@ def _of_beat(beat: object, sizes: dict[Trace, int]) -> tuple[str, str] | None:
             return what, phrase("stay between 0 and {last}, and play forwards", last=len(view.trace.stages))
         for each in filter(None, (view, view.over)):
             sizes[each.trace] = sum(s.n_points for s in each.trace.stages) + each.trace.control.topology.n_vertices
+    if beat.predict is not None:
+        try:
+            checked(beat)
+        except ValueError as fault:
+            what, _, mend = str(fault).partition("; ")
+            return what, mend
     if (total := sum(sizes.values())) > MOST_POINTS:
         what = phrase("the lesson has {total:,} points so far, and {most:,} at most can be shown well",
                       total=total, most=MOST_POINTS)  # fmt: skip

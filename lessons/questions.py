@@ -93,14 +93,17 @@ def checked(beat: "Beat") -> Question:
     Raises
     ------
     ValueError
-        If the beat gives no answer, or there is not exactly one true among two to four.
+        If the beat gives no answer, or there is not exactly one true among two to four; it says the mend too.
     """
     asked = beat.predict
     if asked is None:
         raise ValueError(f"'{beat.text}': nothing is asked here; give it 'predict'")
     if isinstance(asked, Where):
-        if not asked.pane < len(beat.views) or beat.is_still:
+        if not 0 <= asked.pane < len(beat.views) or beat.is_still:
             raise ValueError(f"'{asked.text}': nothing moves there; ask it of a beat that plays, in one of its panes")
+        n = len(beat.views[asked.pane].trace.roles_at(int(beat.views[asked.pane].stop)))
+        if not 0 <= asked.point < n:
+            raise ValueError(f"'{asked.text}': there is no point {asked.point} then; ask for one from 0 to {n - 1}")
         return asked
     if not 2 <= (n := len(asked.answers)) <= MOST:
         raise ValueError(f"'{asked.text}': {n} answers to choose from; give two to {MOST} that differ")

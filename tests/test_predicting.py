@@ -17,6 +17,7 @@ from app.draw.theme import THEMES
 from app.keeping import kept, restored
 from app.link import followed, link
 from app.strict import KeepingError
+from app.trial import tried
 from lessons.questions import Weight, Where, Which, weight, where, which
 from lessons.script import Lesson, View, at_rest, play, show
 from subdivision import shapes, trace
@@ -220,6 +221,7 @@ def test_a_question_without_exactly_one_true_answer_is_refused():
 
     for beat, sentence in (
         (show(told, None, "A cube.", predict=where(5, "Where?")), "nothing moves there"),
+        (play(told, first, "T.", predict=where(26, "Where?")), "there is no point 26 then; ask for one from 0 to 25"),
         (play(told, first, "T.", predict=where(5, "Where?", pane=1)), "nothing moves there"),
         (play(told, first, "T.", predict=which("Which?", still, View(told, 0, 0))), "0 of the answers"),
         (play(told, first, "T.", predict=which("Which?", *at_rest(told, (1, ""), (1, "")))), "2 of the answers"),
@@ -229,3 +231,25 @@ def test_a_question_without_exactly_one_true_answer_is_refused():
         with pytest.raises(ValueError, match=sentence):
             st.start(lesson(beat), st.Options(asking=True))
     assert weight(row, 5, "How much?").answers.count(row.weight(5)) == 1
+
+
+def test_a_lesson_of_ones_own_that_asks_wrongly_is_named_at_its_line(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(
+        """from lessons.questions import where
+from lessons.script import lesson, play, show
+from subdivision import shapes, trace
+from subdivision.schemes import LOOP
+
+
+@lesson("Mine", section="My lessons")
+def mine():
+    told = trace(LOOP, shapes.octahedron())
+    yield play(told, told.stages[0], "Topology.", predict=where(0, "Where will it go?"))
+    yield show(told, told.stages[0], "A still.", predict=where(0, "Where will it go?"))
+"""
+    )
+    fault = tried(path).fault
+    assert fault is not None
+    assert fault.line == 11
+    assert "nothing moves there" in fault.what
