@@ -2,12 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from app.lately import Lately
 from lessons.measured import difference
 from lessons.script import Beat, Lesson, Reading, View, look_at
 from subdivision import Boundary, Mesh, Polyline, Role, Scheme, Stage, Topology, Trace, trace
 from subdivision.catalogue import FAMILIES, Value, Vectors, scheme
+from subdivision.files.faults import printable
 from subdivision.passes import spelled
 from subdivision.rows import Grid
 from subdivision.schemes.box_spline import averaged, in_order, other_orders
@@ -187,8 +189,8 @@ class _Story(Lesson):
 
 
 def titled(name: str) -> str:
-    """A name of a shape or a file as it stands on a picture."""
-    words = name.replace("-", " ").replace("_", " ")
+    """A name of a shape or a file as it stands on a picture: words, never mathematics, whatever is in it."""
+    words = printable(name).replace("-", " ").replace("_", " ").replace("$", "")
     return f"{words[:1].upper()}{words[1:]}"
 
 

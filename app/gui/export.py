@@ -66,7 +66,7 @@ class ExportDialog(QDialog):
         self.limit = QCheckBox(tr("On the limit surface"))
         self.limit.setAccessibleName(tr("On the limit surface"))
         self.limit.setToolTip(tr("Push the vertices of the mesh to where they tend"))
-        self.remark = QLabel(wordWrap=True)
+        self.remark = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         self.go = self.buttons.addButton(tr("Export…"), QDialogButtonBox.ButtonRole.AcceptRole)
         self.go.setDefault(True)

@@ -31,6 +31,7 @@ SO_OFTEN = "It has happened {count} times."
 MOST_TOLD = 5
 """Different faults that one dialog tells; more of them follow from the first."""
 
+
 class Faults(QObject):
     """Hears of every exception that nobody has caught, whatever its thread.
 
