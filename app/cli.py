@@ -263,7 +263,7 @@ def write_page(options: argparse.Namespace) -> None:
     (chosen,) = _turned([_lesson(options.lesson)], dict(options.set))
     path = options.output or Path(f"{chosen.id}.html")
     try:
-        size = write_page_of(start(chosen, Options(as_caption=options.as_caption)), path)
+        size = write_page_of(start(chosen, Options(as_caption=options.as_caption, asking=options.questions)), path)
     except FigureError as fault:
         raise Fault(str(fault)) from fault
     print(tr(phrase("{path}: {size:.0f} kB, opens in any browser", path=path, size=size / 1000)))
@@ -433,6 +433,7 @@ def _for_export(parser: argparse.ArgumentParser) -> None:
 def _for_page(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("lesson", metavar="LESSON", help="a figure's number, or an id")
     parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="an HTML file (the lesson's id)")
+    parser.add_argument("--questions", action="store_true", help="ask for predictions before the answers are shown")
     _colours_and_knobs(parser)
     parser.set_defaults(run=write_page)
 
