@@ -47,7 +47,7 @@ def motivation() -> Iterator[Beat]:
                        look=FLAT, claim=sharpest(curve.mesh_at(6)) < sharpest(curve.mesh_at(4)) / 1.8)
     yield side_by_side("Left a set that is rough at every size, right a curve that is smooth.", *both(6, 10), look=FLAT,
                        poster=True, formula=r"$C_n \rightarrow C_\infty = W(C_\infty) \qquad P_n \rightarrow P_\infty$",
-                       predict=which("Right, from the triangle in dashes: split and average for ever. Where to?",
+                       predict=which("Repeat the right rule for ever, from the dashed triangle. Where to?",
                                      *(View(told, len(told.stages), len(told.stages), over=outline)
                                        for told in (quadratic, curve, linear))),
                        notes="The fractal is the one closed and bounded set, but for the empty one, that its rule "
