@@ -30,6 +30,7 @@ from app import shelf
 from app.asking import toggle_asking
 from app.draw.theme import THEMES
 from app.gui import look, lost
+from app.gui.ahead import Ahead
 from app.gui.autosave import Autosave, folder
 from app.gui.fault import Faults
 from app.gui.look import system_theme
@@ -90,6 +91,8 @@ def run(
     window.offer_to_restore(autosave)
     QTimer.singleShot(0, lambda: window.authoring.begin(shelf.usual_place(), own, is_trusted))
     QTimer.singleShot(0, window.viewport.start)
+    ahead = Ahead(window.session, window.viewport)
+    QTimer.singleShot(0, ahead.begin)
     signal.signal(signal.SIGINT, lambda *_: window.close())
     pulse = QTimer(interval=200)  # lets Python see Ctrl-C
     pulse.timeout.connect(lambda: None)
@@ -97,6 +100,7 @@ def run(
     hear_qt(autosave.keep_now)
     QTimer.singleShot(0, lambda: lost.watch(autosave.keep_now))  # after Qt and VTK, who would take its place
     status = int(app.exec())
+    ahead.stop()
     autosave.end()
     faults.leave()
     return status

@@ -16,8 +16,9 @@ from app.draw.type import measure, wrapped
 from app.gui.brush import type_
 from app.gui.look import GRID, colour
 from app.gui.session import Session
-from app.state import State, stops
+from app.state import Options, State, stops
 from app.words import tr
+from lessons.script import Lesson
 
 SMALL, LARGE = 1 / 34, 1 / 28
 """Size of the caption relative to the window's height, at a desk and when presenting."""
@@ -65,8 +66,7 @@ class Narration(QWidget):
 
     def height_for(self, width: int, window_height: int) -> int:
         """Room for every beat of the lesson, on the grid."""
-        tall = _tall(self._told(), self._size(width, window_height), width)
-        return int(min(-(-tall // GRID) * GRID, window_height // 3))
+        return room(self._session.state, width, window_height)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         state = self._session.state
@@ -96,17 +96,30 @@ class Narration(QWidget):
             return ""
         return tr(HINT) if (state.beat, state.at) == (first.beat, first.at) and not state.is_playing else ""
 
-    def _told(self) -> tuple[Told, ...]:
-        """Every beat of the lesson."""
-        state = self._session.state
-        return tuple((said(state, b), b.formula, b.asks is not None) for b in state.lesson.beats)
-
     def _size(self, width: int, window_height: int) -> float:
-        """Of the caption's type: at a larger scale of the window larger, as far as there is room."""
-        o = self._session.state.options
-        usual = max(window_height * (LARGE if o.presenting else SMALL), 19.0) * THEMES[o.theme].type
-        wished = usual * max(o.scale, 1.0)
-        return _fitted(self._told(), usual, wished, width, window_height * ROOM) if wished > usual else usual
+        return _size(self._session.state, width, window_height)
+
+
+def room(state: State, width: int, window_height: int) -> int:
+    """What the words of every beat of the lesson take, on the grid."""
+    told = _told(state.lesson, state.options)
+    tall = _tall(told, _size(state, width, window_height), width)
+    return int(min(-(-tall // GRID) * GRID, window_height // 3))
+
+
+@lru_cache(maxsize=64)
+def _told(lesson: Lesson, options: Options) -> tuple[Told, ...]:
+    """Every beat of the lesson."""
+    state = State(lesson, options=options)
+    return tuple((said(state, b), b.formula, b.asks is not None) for b in lesson.beats)
+
+
+def _size(state: State, width: int, window_height: int) -> float:
+    """Of the caption's type: at a larger scale of the window larger, as far as there is room."""
+    o = state.options
+    usual = max(window_height * (LARGE if o.presenting else SMALL), 19.0) * THEMES[o.theme].type
+    wished = usual * max(o.scale, 1.0)
+    return _fitted(_told(state.lesson, o), usual, wished, width, window_height * ROOM) if wished > usual else usual
 
 
 @lru_cache(maxsize=64)

@@ -159,6 +159,10 @@ class Viewport(QWidget):
         """The picture as it is seen now: from where the hand has turned it."""
         return from_there(self._picture, self._state.turn)
 
+    def room(self) -> tuple[float, float]:
+        """Width and height of the picture, the caption left out."""
+        return float(self.width()), self._tall()
+
     def _tall(self) -> float:
         return float(max(self.height() - self.narration.height(), 1))
 

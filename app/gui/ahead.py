@@ -1,0 +1,114 @@
+"""What may come next is got ready while nothing happens: lessons told, words set, so that they open at once.
+
+Telling a lesson and setting a formula for the first time take up to half a second; done before, they are remembered.
+Pieces are small and one at a time, in another thread; after any change there is a pause.
+"""
+
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import TypeAlias
+
+from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
+
+from app import bench
+from app.draw.compose import compose
+from app.draw.layout import overlay
+from app.gui.narration import room
+from app.gui.session import Session
+from app.gui.viewport import Viewport
+from app.log import LOG
+from app.state import State, at_stop, open_lesson, segments, stops
+from lessons import built_in
+from lessons.script import Lesson
+
+QUIET, BETWEEN = 500, 10
+"""Milliseconds without a change before the first piece, and from one piece to the next."""
+
+SWITCH = 0.001
+"""Seconds a piece under way keeps the window's thread waiting."""
+
+Piece: TypeAlias = Callable[[], object]
+
+
+class Ahead(QObject):
+    """Does the pieces one after the other while the session rests."""
+
+    def __init__(self, session: Session, viewport: Viewport) -> None:
+        super().__init__()
+        self._session = session
+        self._pieces = pieces(lambda: session.state, viewport)
+        self._job: _Job | None = None
+        self._quiet = QTimer(self, singleShot=True)
+        self._quiet.timeout.connect(self._go_on)
+
+    def begin(self) -> None:
+        """Get ready what comes next from now on, whenever nothing has changed for a while."""
+        sys.setswitchinterval(SWITCH)
+        self._session.changed.connect(self._wait)
+        self._wait()
+
+    def stop(self) -> None:
+        """The window is closing."""
+        self._session.changed.disconnect(self._wait)
+        self._quiet.stop()
+        QThreadPool.globalInstance().waitForDone()
+
+    def _wait(self) -> None:
+        self._quiet.start(QUIET)
+
+    def _go_on(self) -> None:
+        if self._job is not None or self._session.state.is_playing:
+            return
+        if (piece := next(self._pieces, None)) is not None:
+            self._job = _Job(piece)
+            self._job.told.over.connect(self._is_over)
+            QThreadPool.globalInstance().start(self._job)
+
+    def _is_over(self) -> None:
+        self._job = None
+        if not self._quiet.isActive():
+            self._quiet.start(BETWEEN)
+
+
+def pieces(state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
+    """The open lesson from here to its end, then the beginning of each other, then all the rest of them."""
+    if not bench.is_open(here := state()):
+        yield from _played(here.lesson, state, viewport)
+    others = [each for each in built_in() if each is not here.lesson]
+    for lesson in others:
+        yield partial(segments, lesson)
+        yield partial(_drawn, lesson, 0, state(), viewport)
+        yield partial(room, open_lesson(state(), lesson), viewport.width(), viewport.window().height())
+    for lesson in others:
+        yield from _played(lesson, state, viewport)
+
+
+def _played(lesson: Lesson, state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
+    for k in range(len(stops(lesson))):
+        yield partial(_drawn, lesson, k, state(), viewport)
+
+
+def _drawn(lesson: Lesson, step: int, state: State, viewport: Viewport) -> None:
+    """Lay out the picture of a step, for what is remembered of it."""
+    there = at_stop(state, stops(lesson)[step]) if lesson is state.lesson else open_lesson(state, lesson, step)
+    overlay(compose(there), *viewport.room(), words=False)
+
+
+class _Told(QObject):
+    over = Signal()
+
+
+class _Job(QRunnable):
+    def __init__(self, piece: Piece) -> None:
+        super().__init__()
+        self.setAutoDelete(False)
+        self.piece, self.told = piece, _Told()
+
+    def run(self) -> None:
+        try:
+            self.piece()
+        except Exception:  # what cannot be got ready tells why when it is opened
+            LOG.exception("ahead")
+        finally:
+            self.told.over.emit()
