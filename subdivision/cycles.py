@@ -41,12 +41,16 @@ def vertex_slots(t: Topology, some: Mask) -> tuple[Indices, Indices]:
 
 def _sums(order: Indices, sizes: Indices, wave: Wave, n: int) -> Operator:
     """Sums along cycles of ``sizes``, whose members ``order`` lists end to end; there are ``n`` points in all."""
-    length, first = np.repeat(sizes, sizes), np.repeat(np.cumsum(sizes) - sizes, sizes)
-    slot = np.repeat(np.arange(len(order)), length)
-    ahead = np.arange(len(slot)) - np.repeat(np.cumsum(length) - length, length)
-    there = first[slot] + (slot - first[slot] + ahead) % length[slot]
-    lengths = np.unique(sizes[sizes > 0])
-    table = tuple(Fraction(k) * wave(k, j) for k in lengths.tolist() for j in range(k))  # a mean divides by k again
-    entry = (np.cumsum(lengths) - lengths)[np.searchsorted(lengths, length[slot])] + ahead
-    weighed = Weights(table, entry) * Pick(order[there], n)
-    return Mean(order[slot], np.arange(len(slot)), (n, len(slot))) @ weighed
+    rows, columns, entries = [], [], []
+    table: list[Exact] = []
+    first = np.cumsum(sizes) - sizes
+    for k in np.unique(sizes[sizes > 0]).tolist():
+        members = order[first[sizes == k][:, None] + np.arange(k)]
+        ahead = np.arange(k)
+        rows.append(np.repeat(members, k))
+        columns.append(members[:, (ahead[:, None] + ahead).ravel() % k].ravel())
+        entries.append(np.tile(len(table) + ahead, members.size))
+        table += [Fraction(k) * wave(k, j) for j in range(k)]  # a mean divides by k again
+    row, column, entry = (np.concatenate(parts) if parts else order[:0] for parts in (rows, columns, entries))
+    weighed = Weights(tuple(table), entry) * Pick(column, n)
+    return Mean(row, np.arange(len(row)), (n, len(row))) @ weighed

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from subdivision.arrays import Indices, Mask
+from subdivision.arrays import Indices, Mask, taken
 from subdivision.averages import vertex_corners
 from subdivision.exact import Exact
 from subdivision.operators import Operator, Pick
@@ -22,6 +22,8 @@ NOTHING: Corner = (0, 0, 0, 0)
 
 def dart_ends(t: Topology) -> Mask:
     """(n_halfedges,) bool: half-edges along the only sharp edge of an inner vertex."""
+    if t.is_smooth:
+        return np.zeros(t.n_halfedges, dtype=bool)
     sharp = t.edge_sharpness > 0
     alone = np.bincount(t.ends[sharp].ravel(), minlength=t.n_vertices) == 1
     inner = ~t.on_boundary & (t.vertex_sharpness == 0)
@@ -37,12 +39,12 @@ def numbered(t: Topology) -> Indices:
     first = np.full(t.n_vertices, -1)
     for some in (np.arange(t.n_halfedges)[::-1], np.flatnonzero(dart_ends(t)), np.flatnonzero(t.twin < 0)):
         first[t.origin[some]] = some  # later entries overwrite earlier ones
-    rank = np.zeros(t.n_halfedges, dtype=np.intp)
+    rank, around = np.zeros(t.n_halfedges, dtype=np.intp), taken(t.twin, t.prev)
     here = first[first >= 0]
     start = here
     for number in range(len(t.origin)):
         rank[here] = number
-        ahead = t.twin[t.prev[here]]
+        ahead = taken(around, here)
         goes_on = (ahead >= 0) & (ahead != start)
         here, start = ahead[goes_on], start[goes_on]
         if len(here) == 0:

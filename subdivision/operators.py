@@ -15,9 +15,9 @@ from functools import cached_property
 from typing import overload
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import _sparsetools, csr_array, diags_array
 
-from subdivision.arrays import Floats, Indices, Mask
+from subdivision.arrays import Floats, Indices, Mask, taken
 from subdivision.exact import Row, add_rows
 from subdivision.weights import Weights, everywhere
 
@@ -69,7 +69,7 @@ class Pick(Operator):
         return len(self.index), self.n_columns
 
     def apply(self, points: Floats) -> Floats:
-        return points[self.index]
+        return taken(points, self.index)
 
     def assemble(self) -> csr_array:
         n = len(self.index)
@@ -91,9 +91,9 @@ class MeanOf(Operator):
         return len(self.columns), self.n_columns
 
     def apply(self, points: Floats) -> Floats:
-        total = points[self.columns[:, 0]]
+        total = taken(points, self.columns[:, 0])
         for column in self.columns.T[1:]:
-            total += points[column]
+            total += taken(points, column)
         total /= self.columns.shape[1]
         return total
 
@@ -125,9 +125,12 @@ class Mean(Operator):
         return np.bincount(self.rows, minlength=self.shape[0])
 
     def apply(self, points: Floats) -> Floats:
-        divisor = np.maximum(self.counts, 1)
-        sums = [np.bincount(self.rows, weights=column[self.columns], minlength=self.shape[0]) for column in points.T]
-        return np.stack([total / divisor for total in sums], axis=1)
+        n, d, points = len(self.rows), points.shape[1], np.ascontiguousarray(points, dtype=float)
+        total = np.zeros((self.shape[0], d))
+        rows, columns = (x.astype(np.int32, copy=False) for x in (self.rows, self.columns))
+        _sparsetools.coo_matmat_dense(n, d, rows, columns, np.ones(n), points.reshape(-1), total.reshape(-1))
+        total /= np.maximum(self.counts, 1)[:, None]
+        return total
 
     def assemble(self) -> csr_array:
         weights = 1 / np.maximum(self.counts, 1)[self.rows]
@@ -157,7 +160,9 @@ class Scaled(Operator):
         return self.of.shape
 
     def apply(self, points: Floats) -> Floats:
-        return self.weights.values[:, None] * self.of.apply(points)
+        scaled = self.of.apply(points)
+        scaled *= self.weights.values[:, None] if len(self.weights.table) > 1 else float(self.weights.table[0])
+        return scaled
 
     def assemble(self) -> csr_array:
         return csr_array(diags_array(self.weights.values) @ self.of.assemble())

@@ -194,7 +194,9 @@ class Topology:
     @cached_property
     def valence(self) -> Indices:
         """(n_vertices,) int: how many edges meet at each vertex."""
-        return frozen(np.bincount(self.ends.ravel(), minlength=self.n_vertices))
+        valence, rim = np.bincount(self.origin, minlength=self.n_vertices), np.flatnonzero(self.twin < 0)
+        np.add.at(valence, self.origin[self.next[rim]], 1)
+        return frozen(valence)
 
     @cached_property
     def boundary(self) -> Mask:
@@ -207,7 +209,8 @@ class Topology:
     def on_boundary(self) -> Mask:
         """(n_vertices,) bool: vertices at the end of a boundary edge."""
         mask = np.zeros(self.n_vertices, dtype=bool)
-        mask[self.ends[self.boundary]] = True
+        rim = np.flatnonzero(self.twin < 0)
+        mask[self.origin[rim]] = mask[self.origin[self.next[rim]]] = True
         return frozen(mask)
 
     @cached_property
