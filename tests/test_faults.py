@@ -54,3 +54,16 @@ def test_an_encoder_that_ends_well_but_has_complained_has_made_no_film(tmp_path,
 def test_a_film_too_fast_to_rest_is_one_all_the_same():
     shots = [film.Shot(state(0), 0.1), film.Shot(state(1), 0.1)]
     assert film.gif(shots, 160, 90).startswith(b"GIF8")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a disk that is always full")
+@pytest.mark.parametrize("command", [["lessons"], ["mask", "--vectors", "1,0 0,1"]])
+def test_output_that_finds_no_room_is_a_sentence(command):
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "app", *command], cwd=ROOT, stdout=full, stderr=subprocess.PIPE, text=True,
+            check=False,
+        )  # fmt: skip
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert "could not be written" in done.stderr

@@ -29,6 +29,9 @@ ABOVE = 0.97
 WIDER, SPARE = 0.18, 0.3
 """How much wider than in Inter a line is in the widest of usual typefaces, and how much more room its box has."""
 
+LONGEST = 255
+"""Characters of a property of a file, in this format."""
+
 FINE = 3.0
 """Formulas have so many pixels for one of the picture's."""
 
@@ -43,7 +46,8 @@ def deck(
     made = Presentation()
     unit = TALL / size[1]
     made.slide_width, made.slide_height = (_emu(n, unit) for n in size)
-    made.core_properties.title = tr(steps[0].lesson.title if len(told) == 1 else "Subdivision Curves and Surfaces")
+    title = tr(steps[0].lesson.title if len(told) == 1 else "Subdivision Curves and Surfaces")
+    made.core_properties.title = title[:LONGEST]
     made.core_properties.author = "Subdivision Studio"
     for k, step in enumerate(steps, 1):
         _slide(made, stood_on(seen(step), background), tr(step.now.notes), size, unit)
