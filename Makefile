@@ -4,7 +4,7 @@
 
 export SCREEN := $(or $(DISPLAY),$(WAYLAND_DISPLAY),$(filter Darwin,$(shell uname -s)))
 
-.PHONY: run test pictures benchmarks clean
+.PHONY: run test pictures words benchmarks clean
 
 run:
 	@.ci/setup run
@@ -25,6 +25,10 @@ pictures: # the README's, drawn again by the program
 	@.venv/bin/python -m app figures --out build/pictures/lecture --format png --size 960x540 --sheet assets/pictures/gallery.png
 	@.venv/bin/python -m app figures 5 14 --steps --out build/pictures --format png --size 1440x810
 	@cp build/pictures/figure_05_quadruple_then_average-03.png build/pictures/figure_14_cube-05.png assets/pictures
+
+words: # every text into the catalogues of assets/languages, where what is new waits for its translation
+	@.ci/setup test
+	@.venv/bin/python -m tests.words
 
 benchmarks: # how fast the engine is, beside others
 	@.ci/setup run

@@ -46,7 +46,7 @@ def insert_point(polygon: Mesh, after: int, at: Sequence[float] | Floats) -> Mes
 
 def remove_points(polygon: Mesh, points: Iterable[int]) -> Mesh:
     """The polygon without some of its points."""
-    t, gone = _polyline(polygon), _known(points, polygon.topology.n_vertices, "point")
+    t, gone = _polyline(polygon), _known(points, polygon.topology.n_vertices, phrase("point"))
     left, least = t.n_vertices - len(gone), LEAST_CLOSED if t.closed else LEAST_OPEN
     if left < least:
         why = (
@@ -96,18 +96,13 @@ def set_wrap(net: Mesh, wrap_s: bool, wrap_t: bool) -> Mesh:
 def _require_across(direction: str, n: int, wrap: bool) -> None:
     least = LEAST_CLOSED if wrap else LEAST_ACROSS
     if n < least:
-        wrapped = ", wrapped," if wrap else ""
-        mend = phrase("open it in {direction}, or keep more", direction=direction) if wrap else "keep more"
-        raise TopologyError(
-            phrase(
-                "a net{wrapped} needs {least} points or more in direction {direction}, not {n}; {mend}",
-                wrapped=wrapped,
-                least=least,
-                direction=direction,
-                n=n,
-                mend=mend,
-            )
+        why = (
+            "a net, wrapped, needs {least} points or more in direction {direction}, not {n}; open it in {direction}, "
+            "or keep more"
+            if wrap
+            else "a net needs {least} points or more in direction {direction}, not {n}; keep more"
         )
+        raise TopologyError(phrase(why, least=least, direction=direction, n=n))
 
 
 def _resampled(rows: Floats, n: int, wrap: bool) -> Floats:
@@ -152,7 +147,7 @@ def _fan(t: Topology, valence: int, rings: int) -> Mesh:
 def sharpen_edges(mesh: Mesh, edges: Iterable[int], sharpness: float) -> Mesh:
     """The mesh with a crease along some edges: 0 smooth, up to 10 which never wears off."""
     t = _surface(mesh)
-    chosen = _known(edges, t.n_edges, "edge")
+    chosen = _known(edges, t.n_edges, phrase("edge"))
     for e in chosen:
         if t.boundary[e]:
             a, b = sorted(t.ends[e].tolist())
@@ -174,7 +169,7 @@ def sharpen_vertices(mesh: Mesh, vertices: Iterable[int], sharpness: float) -> M
     """The mesh with some vertices pinned: 0 smooth, up to 10 which never wears off."""
     t = _surface(mesh)
     values = t.vertex_sharpness.copy()
-    values[_known(vertices, t.n_vertices, "vertex")] = _checked(sharpness)
+    values[_known(vertices, t.n_vertices, phrase("vertex"))] = _checked(sharpness)
     return Mesh(replace(t, vertex_sharpness=values), mesh.points)
 
 
@@ -195,7 +190,7 @@ def _checked(sharpness: float) -> float:
 def delete_faces(mesh: Mesh, faces: Iterable[int]) -> Mesh:
     """The mesh without some faces, and without vertices that no face has any more."""
     t = _surface(mesh)
-    gone = _known(faces, t.n_faces, "face")
+    gone = _known(faces, t.n_faces, phrase("face"))
     if len(gone) == t.n_faces:
         raise TopologyError(phrase("without face {gone} no face would be left; keep one", gone=gone[-1]), faces=gone)
     _require_no_new_bow_ties(t, gone)
@@ -206,7 +201,7 @@ def delete_faces(mesh: Mesh, faces: Iterable[int]) -> Mesh:
 def fill_hole(mesh: Mesh, edge: int) -> Mesh:
     """The mesh with the hole that ``edge`` is on filled by one face, the last."""
     t = _surface(mesh)
-    (e,) = _known([edge], t.n_edges, "edge")
+    (e,) = _known([edge], t.n_edges, phrase("edge"))
     if not t.boundary[e]:
         a, b = sorted(t.ends[e].tolist())
         raise TopologyError(
@@ -232,7 +227,7 @@ def boundary_loop(t: Topology, edge: int) -> list[int]:
 def flip_edge(mesh: Mesh, edge: int) -> Mesh:
     """The two triangles at an edge cut along the other diagonal, which is smooth."""
     t = _surface(mesh)
-    (e,) = _known([edge], t.n_edges, "edge")
+    (e,) = _known([edge], t.n_edges, phrase("edge"))
     sides = np.flatnonzero(t.edge == e)
     a, b = sorted(t.ends[e].tolist())
     if len(sides) < 2:

@@ -84,10 +84,10 @@ class Analysis:
     def conditions(self) -> tuple[Condition, Condition, Condition]:
         """A tangent plane, then the bounded curvature of bowls and of saddles."""
         smooth = self._tangent_plane()
-        saddles = Condition("Saddles", smooth.holds, "none", "no wave runs twice round three faces")
+        saddles = Condition(phrase("Saddles"), smooth.holds, phrase("none"), "no wave runs twice round three faces")
         if self.ring.valence > 3:
-            saddles = self._curvature("Saddles", self.ring.saddle, smooth.holds)
-        return smooth, self._curvature("Bowls", self.ring.cup, smooth.holds), saddles
+            saddles = self._curvature(phrase("Saddles"), self.ring.saddle, smooth.holds)
+        return smooth, self._curvature(phrase("Bowls"), self.ring.cup, smooth.holds), saddles
 
     @property
     def is_smooth(self) -> bool:
@@ -100,7 +100,7 @@ class Analysis:
             return Condition(
                 "C¹",
                 False,
-                "a tip",
+                phrase("a tip"),
                 phrase(
                     "mode {mode} shrinks by {rival:.4f}, the ring by {ring:.4f}",
                     mode=self.rival.mode,
@@ -109,7 +109,7 @@ class Analysis:
                 ),
             )
         if not self.chart.is_one_to_one:
-            return Condition("C¹", False, "a fold", "the characteristic map is not one to one")
+            return Condition("C¹", False, phrase("a fold"), "the characteristic map is not one to one")
         return Condition(
             "C¹",
             True,

@@ -35,12 +35,12 @@ def refusing(*reasons: Callable[[Topology], str]) -> Callable[[Connectivity], st
 
 def refuses_non_quads(t: Connectivity) -> str:
     """Why ``t`` is no quad mesh; empty where it is."""
-    return _refuses_other_faces(t, 4, "quadrilateral", "one step of Catmull-Clark makes all faces quads")
+    return _refuses_other_faces(t, 4, phrase("quadrilateral"), "one step of Catmull-Clark makes all faces quads")
 
 
 def refuses_non_triangles(t: Connectivity) -> str:
     """Why ``t`` is no triangle mesh; empty where it is."""
-    return _refuses_other_faces(t, 3, "triangle", "triangulate the mesh, or use Catmull-Clark")
+    return _refuses_other_faces(t, 3, phrase("triangle"), "triangulate the mesh, or use Catmull-Clark")
 
 
 def refuses_sharp(t: Topology) -> str:

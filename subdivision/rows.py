@@ -86,16 +86,12 @@ class Grid:
         for name, n, wrap in (("s", self.n_s, self.wrap_s), ("t", self.n_t, self.wrap_t)):
             least = 3 if wrap else 1
             if n < least:
-                wrapped = ", wrapped," if wrap else ""
-                raise TopologyError(
-                    phrase(
-                        "a net{wrapped} needs at least {least} points in direction {name}, not {n}",
-                        wrapped=wrapped,
-                        least=least,
-                        name=name,
-                        n=n,
-                    )
+                why = (
+                    "a net, wrapped, needs at least {least} points in direction {name}, not {n}"
+                    if wrap
+                    else "a net needs at least {least} points in direction {name}, not {n}"
                 )
+                raise TopologyError(phrase(why, least=least, name=name, n=n))
 
     @property
     def n_vertices(self) -> int:

@@ -14,13 +14,13 @@ SLACK = 1.0
 """Pixels by which two texts may touch: their extents are those of whole lines, not of ink."""
 
 
-@pytest.mark.parametrize("theme", ["light", "projector"])
+@pytest.mark.parametrize(("theme", "language"), [("light", "en"), ("projector", "en"), ("light", "de")])
 @pytest.mark.parametrize("lesson", lessons.all_lessons(), ids=lambda each: each.id)
-def test_type_is_large_enough_whole_and_apart(lesson, theme):
+def test_type_is_large_enough_whole_and_apart(lesson, theme, language):
     height = 1080
     size = 1920, height
     for number, stop in enumerate(stops(lesson), 1):
-        picture = compose(at_stop(start(lesson, Options(theme=theme)), stop))
+        picture = compose(at_stop(start(lesson, Options(theme=theme, language=language)), stop))
         texts = [each for each in overlay(picture, *size) if isinstance(each, Text) and each.text.strip()]
         boxes = np.array([extent(each) for each in texts])
         assert min(each.size for each in texts) >= height / 45 - 0.01, number

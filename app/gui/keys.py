@@ -149,7 +149,6 @@ COMMANDS = (
             when=lambda state: is_open(state) and bool(state.predicted)),
     Command("search", "Find a lesson", "Lesson", ("Ctrl+K",), lambda w: w.find_lesson(), icon="search"),
     Command("record", "Record this view as a step…", "Lesson", ("Ctrl+R",), lambda w: w.recorder.choose()),
-    Command("record", "Record this view as a step…", "Lesson", ("Ctrl+R",), lambda w: w.recorder.choose()),
     Command("new_lesson", "New lesson…", "Lesson", (), lambda w: w.authoring.new_lesson()),
     Command("show_folder", "Show lessons folder", "Lesson", (), lambda w: w.authoring.show_folder()),
     Command("present", "Full screen", "Present", ("F5", "Shift+F5", "F11"), lambda w: w.toggle_presenting(),
@@ -198,9 +197,9 @@ COMMANDS = (
 BY_ID = {c.id: c for c in COMMANDS}
 
 MOUSE = (
-    ("Turn", "drag"),
+    ("Turn", phrase("drag")),
     ("Move", "Shift + drag, right drag"),
-    ("Zoom", "wheel"),
+    ("Zoom", phrase("wheel")),
     ("Reset the view", "double click beside the points"),
     ("Why is a point here?", "point at it; click to keep it"),
     ("Move a control point", "drag it; hold X, Y or Z: along an axis"),

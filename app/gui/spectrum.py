@@ -111,7 +111,7 @@ def _mode(k: int) -> str:
 
 def _verdict(c: Condition, muted: str) -> str:
     verdict = "{name}: {word}" if c.name != "C¹" else "{name} holds: {word}" if c.holds else "{name} fails: {word}"
-    words = tr(phrase(verdict, name=f"<b>{c.name}</b>", word=escape(tr(c.word))))
+    words = tr(phrase(verdict, name=f"<b>{tr(c.name)}</b>", word=escape(tr(c.word))))
     return f'<p>{words}<br><span style="color:{muted}">{escape(tr(c.why))}</span></p>'
 
 

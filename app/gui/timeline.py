@@ -193,7 +193,7 @@ class Track(QWidget):
         left, right = self._x(s.begin), self._x(s.end)
         if not is_now and not self._has_room(face):
             return
-        wide = QFontMetricsF(face).horizontalAdvance(s.name) + fine(2)
+        wide = QFontMetricsF(face).horizontalAdvance(tr(s.name)) + fine(2)
         x = min(max((left + right - wide) / 2, 0.0), self.width() - wide)
         painter.setFont(face)
         painter.setPen(ink)
@@ -202,7 +202,7 @@ class Track(QWidget):
 
     def _has_room(self, face: QFont) -> bool:
         parts, wide = segments(self._session.state.lesson), QFontMetricsF(face).horizontalAdvance
-        return all(wide(s.name) + fine(6) < self._x(s.end) - self._x(s.begin) for s in parts if s.name)
+        return all(wide(tr(s.name)) + fine(6) < self._x(s.end) - self._x(s.begin) for s in parts if s.name)
 
     def _question(self, painter: QPainter, at: QPointF, theme: Theme) -> None:
         """A mark on the track where the lesson rests at a question."""

@@ -46,7 +46,7 @@ def read(path: AnyPath) -> Mesh:
     """
     path = Path(path)
     try:
-        reader = _chosen(_READERS, path, "read")
+        reader = _chosen(_READERS, path, phrase("read"))
         _require_file(path)
         return mesh_of(reader(_bytes_of(path)))
     except Fault as fault:
@@ -67,7 +67,7 @@ def write(path: AnyPath, mesh: Mesh) -> None:
     """
     path = Path(path)
     try:
-        writer = _chosen(_WRITERS, path, "written")
+        writer = _chosen(_WRITERS, path, phrase("written"))
         _require_mesh(mesh)
         _require_writable(path)
         save(path, writer(mesh))

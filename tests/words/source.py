@@ -33,7 +33,7 @@ SENTENCE = re.compile(r"[A-Za-z{}’',;:.)…]{2,}[ \u00a0]+[(\"'{A-Za-z]")
 WORD = re.compile(r"[A-Z][a-z’]+(…| |$)")
 """A word as a menu has it."""
 
-MARKUP = re.compile(r"^[<#/.]|</|=\"|: ?#|\w+\(\)|^[a-z-]+: |[{};] *[a-z-]+ *:|px|\\")
+MARKUP = re.compile(r"^[<#/.]|</|=\"|: ?#|\w+\(\)|^[a-z-]+: |; *[a-z-]+: ?[\w#]|px|\\|^\W*$|=> \{|^\"\"\"|^ {4}|\{:")
 
 
 class Text(NamedTuple):
@@ -78,7 +78,8 @@ class _Reader(ast.NodeVisitor):
         self.visit(node.value)
 
     def visit_Compare(self, node: ast.Compare) -> None:
-        return
+        for call in [each for each in ast.walk(node) if isinstance(each, ast.Call)]:
+            self.visit(call)
 
     def visit_Call(self, node: ast.Call) -> None:
         name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")

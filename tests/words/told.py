@@ -48,10 +48,15 @@ def of_lessons() -> Iterator[Text]:
 
 def _of_lesson(lesson: Lesson) -> Iterator[str]:
     yield from (lesson.title, lesson.section, lesson.ours, *(knob.label for knob in lesson.knobs))
-    for values in product(*(range(knob.least, knob.most + 1) for knob in lesson.knobs)):
-        names = (knob.name for knob in lesson.knobs)
-        for beat in lesson.turned(**dict(zip(names, values, strict=True))).beats:
+    for told in every_way(lesson):
+        for beat in told.beats:
             yield from _of_beat(beat)
+
+
+def every_way(lesson: Lesson) -> Iterator[Lesson]:
+    """The lesson with its knobs at every value."""
+    for values in product(*(range(knob.least, knob.most + 1) for knob in lesson.knobs)):
+        yield lesson.turned(**dict(zip((knob.name for knob in lesson.knobs), values, strict=True)))
 
 
 def _of_beat(beat: Beat) -> Iterator[str]:
