@@ -21,8 +21,9 @@ LAYERS = {
     "app.lab": ("subdivision", "lessons", "app.lab"),
     "app.words": ("subdivision", "app.words"),
     "app.state": ("subdivision", "lessons", "app.lab", "app.words", "app.state"),
-    "app.draw": ("subdivision", "lessons", "app.words", "app.state", "app.draw"),
-    "app.figures": ("subdivision", "lessons", "app.words", "app.state", "app.draw", "app.figures"),
+    "app.asking": ("subdivision", "lessons", "app.state", "app.asking"),
+    "app.draw": ("subdivision", "lessons", "app.words", "app.state", "app.asking", "app.draw"),
+    "app.figures": ("subdivision", "lessons", "app.words", "app.state", "app.asking", "app.draw", "app.figures"),
     "app.gui": ("subdivision", "lessons", "app"),
     "app": ("subdivision", "lessons", "app"),
 }
