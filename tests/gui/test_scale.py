@@ -1,15 +1,21 @@
 """Everything in the window larger or smaller, while it stands."""
 
+import re
+
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel
 
-from app import bench
+import lessons
+from app import bench, keeping
+from app.cli import main
+from app.export.wish import Wish
 from app.gui.application import settings_scale
+from app.gui.export import arguments
 from app.gui.keys import BY_ID, spelled_keys
 from app.gui.look import SCALES
-from app.state import toggle
+from app.state import Options, last, start, toggle
 
 pytestmark = pytest.mark.window
 CTRL = Qt.KeyboardModifier.ControlModifier
@@ -83,3 +89,15 @@ def test_the_picture_keeps_half_of_the_window_and_nothing_is_cut_off(qtbot, wind
         if part.isVisible():
             assert inside.contains(part.rect().translated(part.mapTo(window, part.rect().topLeft())))
             assert part.width() >= part.minimumSizeHint().width()
+
+
+def test_an_export_is_as_large_as_what_is_shown(qapp, tmp_path):
+    largest = []
+    for scale in (1.0, 1.5):
+        state = last(start(lessons.find("14"), Options(scale=scale)))
+        kept, out = keeping.write(tmp_path / "view", state), tmp_path / f"{scale}.svg"
+        words = arguments(kept, state, Wish("svg", "view"), out)
+        words.remove("--progress")  # nobody listens
+        assert main(words) == 0
+        largest.append(max(float(size) for size in re.findall(r'font-size="([0-9.]+)', out.read_text())))
+    assert largest[1] == pytest.approx(1.5 * largest[0], rel=0.02)
