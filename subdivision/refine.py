@@ -108,13 +108,16 @@ def deferred(
         known["is_smooth"] = True
     if not coarse.hidden.any():
         known["hidden"] = constant(False, n_faces)
-    alike = {"next": lambda: following(size, n_faces), "face": lambda: np.repeat(np.arange(n_faces), size)}
+    alike = {"next": lambda: following(known["face_sizes"]), "face": lambda: np.repeat(np.arange(n_faces), size)}
     return Topology.deferred({**alike, **make}, **known)
 
 
-def following(size: int, n_faces: int) -> Indices:
-    """(size n_faces,) int: each half-edge of faces of one size to the next."""
-    return turned(np.arange(size * n_faces).reshape(n_faces, size), 1).ravel()
+def following(face_sizes: Indices) -> Indices:
+    """(n_halfedges,) int: each half-edge of faces of these sizes to the next."""
+    last = np.cumsum(face_sizes) - 1
+    following = np.arange(1, last[-1] + 2)
+    following[last] = last + 1 - face_sizes
+    return following
 
 
 def worn(sharpness: Floats) -> Floats:

@@ -4,12 +4,19 @@ A dual scheme has no face where a vertex or an edge is not surrounded: an open m
 its boundary as an open net does, and its outline has no sharpness left.
 """
 
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TypeAlias
+
 import numpy as np
 
-from subdivision.arrays import Indices
+from subdivision.arrays import Indices, constant, taken
 from subdivision.cycles import vertex_slots
-from subdivision.refine import Refinement
+from subdivision.refine import Refinement, before, following
 from subdivision.topology import Topology
+
+Links: TypeAlias = tuple[Indices, Indices]
+"""Twin and edge of every half-edge."""
 
 
 def corners(t: Topology) -> Topology:
@@ -18,28 +25,38 @@ def corners(t: Topology) -> Topology:
     Half-edge ``h`` stays in its face, and vertex ``h`` is the corner it leaves.  The quad of an
     edge holds two half-edges for each of its halves; the face of a vertex one for each corner.
     """
-    H, F, h = t.n_halfedges, t.n_faces, np.arange(t.n_halfedges)
-    inner = t.twin >= 0
-    quad = np.cumsum(~t.boundary) - 1
-    along = np.where(inner, H + 4 * quad[t.edge] + 2 * (h > t.twin), -1)
+    H = t.n_halfedges
     slots, sizes = vertex_slots(t, ~t.on_boundary)
-    base = H + 2 * int(inner.sum())
-    about = np.where(slots >= 0, base + slots, -1)
+    lower = np.flatnonzero(np.arange(H) < t.twin)
+    upper = t.twin[lower]
+    quads = np.empty((len(lower), 4), dtype=np.intp)
+    quads[_quad_of(t)[lower]] = np.stack([t.next[lower], lower, t.next[upper], upper], axis=1)
+    return _dual(
+        origin=np.concatenate([np.arange(H), quads.ravel(), _listed(slots)]),
+        face_sizes=np.concatenate([t.face_sizes, np.full(len(quads), 4), sizes[sizes > 0]]),
+        n_vertices=H,
+        n_edges=H + 2 * len(quads),
+        links=lambda: _corner_links(t, slots),
+    )
+
+
+def _corner_links(t: Topology, slots: Indices) -> Links:
+    """Twin and edge of ``corners(t)``."""
+    H, h, inner = t.n_halfedges, np.arange(t.n_halfedges), t.twin >= 0
+    quad = _quad_of(t)
+    along = np.where(inner, H + 4 * quad + 2 * (h > t.twin), -1)
     half, corner = np.flatnonzero(inner), np.flatnonzero(slots >= 0)
+    base = H + 2 * len(half)
+    about = np.where(slots >= 0, base + slots, -1)
     ahead = t.twin[t.prev[corner]]
-    n = base + len(corner)
-    origin, next_, twin, edge = (np.full(n, -1) for _ in range(4))
-    origin[:H], next_[:H], twin[:H], edge[:H] = h, t.next, along, h
+    twin, edge = (np.full(base + len(corner), -1) for _ in range(2))
+    twin[:H], edge[:H] = along, h
     k = along[half]
-    origin[k], next_[k], twin[k], edge[k] = t.next[half], k + 1, half, half
-    k, pair = k + 1, H + 4 * quad[t.edge[half]]
-    origin[k], next_[k], twin[k] = half, pair + (k + 1 - pair) % 4, about[t.next[t.twin[half]]]
-    edge[k] = H + np.arange(len(half))
+    twin[k], edge[k] = half, half
+    twin[k + 1], edge[k + 1] = about[t.next[t.twin[half]]], H + np.arange(len(half))
     k = about[corner]
-    origin[k], next_[k], twin[k], edge[k] = corner, about[ahead], along[ahead] + 1, edge[along[ahead] + 1]
-    quads, vertices = np.repeat(np.arange(len(half) // 2), 4), np.repeat(np.arange((sizes > 0).sum()), sizes[sizes > 0])
-    face = np.concatenate([t.face, F + quads, F + len(half) // 2 + vertices])
-    return _smooth(origin, next_, twin, edge, face, n_vertices=H)
+    twin[k], edge[k] = along[ahead] + 1, edge[along[ahead] + 1]
+    return twin, edge
 
 
 def midpoints(t: Topology) -> Topology:
@@ -50,14 +67,26 @@ def midpoints(t: Topology) -> Topology:
     """
     H, h = t.n_halfedges, np.arange(t.n_halfedges)
     slots, sizes = vertex_slots(t, t.valence > 0)
-    ahead = t.twin[t.prev]
-    origin, next_, twin, edge = (np.empty(2 * H, dtype=np.intp) for _ in range(4))
-    origin[:H], next_[:H], twin[:H], edge[:H] = t.edge[t.prev], t.next, H + slots, h
-    k = H + slots
-    origin[k], next_[k], twin[k], edge[k] = t.edge, k[ahead], h, h
-    vertices = np.repeat(np.arange((sizes > 0).sum()), sizes[sizes > 0])
-    face = np.concatenate([t.face, t.n_faces + vertices])
-    return _smooth(origin, next_, twin, edge, face, n_vertices=t.n_edges)
+    return _dual(
+        origin=np.concatenate([before(t, t.edge), t.edge[_listed(slots)]]),
+        face_sizes=np.concatenate([t.face_sizes, sizes[sizes > 0]]),
+        n_vertices=t.n_edges,
+        n_edges=H,
+        links=lambda: (np.concatenate([H + slots, _listed(slots)]), np.concatenate([h, _listed(slots)])),
+    )
+
+
+def _quad_of(t: Topology) -> Indices:
+    """(n_halfedges,) int: which of the quads between faces lies on each half-edge."""
+    return taken(np.cumsum(~t.boundary) - 1, t.edge)
+
+
+def _listed(slots: Indices) -> Indices:
+    """What has the slots 0, 1, 2, ..."""
+    listed = np.empty(int(slots.max(initial=-1)) + 1, dtype=np.intp)
+    some = np.flatnonzero(slots >= 0)
+    listed[slots[some]] = some
+    return listed
 
 
 def _corner_faces(t: Topology, levels: int) -> int:
@@ -77,12 +106,18 @@ def _midpoint_faces(t: Topology, levels: int) -> int:
     return euler + E - V
 
 
-def _smooth(origin: Indices, next_: Indices, twin: Indices, edge: Indices, face: Indices, n_vertices: int) -> Topology:
-    """The mesh without any sharpness."""
-    return Topology(
-        origin, next_, twin, edge, face, n_vertices,
-        edge_sharpness=np.zeros(int(edge.max()) + 1), vertex_sharpness=np.zeros(n_vertices),
-        hidden=np.zeros(int(face.max()) + 1, dtype=bool),
+def _dual(origin: Indices, face_sizes: Indices, n_vertices: int, n_edges: int, links: Callable[[], Links]) -> Topology:
+    """The mesh, without any sharpness; ``links`` are made when they are needed."""
+    once, n = lru_cache(links), len(face_sizes)
+    make = {
+        "next": lambda: following(face_sizes),
+        "twin": lambda: once()[0],
+        "edge": lambda: once()[1],
+        "face": lambda: np.repeat(np.arange(n), face_sizes),
+    }
+    return Topology.deferred(
+        make, origin=origin, face_sizes=face_sizes, n_vertices=n_vertices, is_smooth=True,
+        edge_sharpness=constant(0.0, n_edges), vertex_sharpness=constant(0.0, n_vertices), hidden=constant(False, n),
     )  # fmt: skip
 
 

@@ -39,9 +39,10 @@ def flipped(t: Topology) -> Topology:
 
 def _smooth(make: Mapping[str, Callable[[], Indices]], n_faces: int, n_edges: int, n_vertices: int) -> Topology:
     """Triangles without any sharpness."""
-    alike = {"next": lambda: following(3, n_faces), "face": lambda: np.repeat(np.arange(n_faces), 3)}
+    sizes = constant(3, n_faces)
+    alike = {"next": lambda: following(sizes), "face": lambda: np.repeat(np.arange(n_faces), 3)}
     return Topology.deferred(
-        {**alike, **make}, n_vertices=n_vertices, is_smooth=True, face_sizes=constant(3, n_faces),
+        {**alike, **make}, n_vertices=n_vertices, is_smooth=True, face_sizes=sizes,
         edge_sharpness=constant(0.0, n_edges), vertex_sharpness=constant(0.0, n_vertices),
         hidden=constant(False, n_faces),
     )  # fmt: skip
