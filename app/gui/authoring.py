@@ -75,13 +75,14 @@ class Authoring(QObject):
         kept = shelf.remembered(place)
         if folder is not None:
             self.open(folder, is_trusted=is_trusted)
-        elif kept.folder and kept.is_agreed(Path(kept.folder)) and Path(kept.folder).is_dir():
-            self._take(Path(kept.folder))
+        elif kept.folder and kept.is_agreed(Path(kept.folder)):
+            self.open(Path(kept.folder))
 
     def choose_folder(self) -> None:
         """Ask which folder has the lessons."""
         start = self.folder or Path(shelf.remembered(self._place).folder or self._suggested())
         chosen = QFileDialog.getExistingDirectory(self._window, tr("Lessons folder"), str(start))
+        self._is_opening = bool(chosen)
         if chosen and self.open(Path(chosen)):
             self._keep(lambda kept: kept.chosen(Path(chosen)))
 
@@ -98,7 +99,6 @@ class Authoring(QObject):
                 self._window.banner.tell(said)
                 return False
             self._keep(lambda kept: kept.agree(folder))
-        self._is_opening = True
         self._take(folder)
         return True
 
@@ -122,7 +122,7 @@ class Authoring(QObject):
     def stop(self) -> None:
         """The window is closing."""
         self._soon.stop()
-        self._trials.stop()
+        self._trials.end()
         self._loader.forget()
         lessons.bring(())
 

@@ -14,6 +14,10 @@ PATIENCE = 1500
 """Milliseconds before a trial is announced."""
 
 
+LAST = 1000
+"""Milliseconds that a process is given to be gone."""
+
+
 class Trials(QObject):
     """Tries one file at a time; one that changes on trial is tried anew."""
 
@@ -57,12 +61,20 @@ class Trials(QObject):
             process, self._process, self._path = self._process, None, None
             process.finished.disconnect(self._finished)
             process.errorOccurred.disconnect(self._failed)
-            process.kill()
-            process.waitForFinished(1000)
-            process.deleteLater()
+            if process.state() == QProcess.ProcessState.NotRunning:
+                process.deleteLater()
+            else:
+                process.finished.connect(process.deleteLater)
+                process.kill()
         if self._is_announced:
             self._is_announced = False
             self._banner.done()
+
+    def end(self) -> None:
+        """The window is closing: no process is left behind."""
+        self.stop()
+        for process in self.findChildren(QProcess):
+            process.waitForFinished(LAST)
 
     def _announce(self) -> None:
         if self._path is not None:
