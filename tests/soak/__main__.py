@@ -36,6 +36,7 @@ def main() -> int:
         print(table(report))
     sentences = [*_faults(report), *_grown(report)]
     if report.faults:
+        print("\n".join(["the last steps:", *report.steps]))
         sentences.append(_shrunk(wanted, report, options))
     elif not options.begin:
         sentences += _others(wanted[: round(max(AGAIN * len(wanted), 100))], report, options.folder)

@@ -28,6 +28,7 @@ from app.gui.application import application
 from app.gui.autosave import Autosave
 from app.gui.export import ExportDialog
 from app.gui.window import Window
+from app.gui.worker import Worker
 from app.keeping import taken_up
 from app.link import followed, link
 from app.state import settle, start
@@ -35,7 +36,7 @@ from app.strict import KeepingError
 from tests.gui.watchdog import Watchdog
 from tests.soak.diary import Diary, digest
 from tests.soak.faults import Faults
-from tests.soak.hand import Action, Hand, Steps
+from tests.soak.hand import Action, Hand, Steps, described
 from tests.soak.memory import resident
 
 PAGE = 500
@@ -125,7 +126,8 @@ class Run:
         last, count = self.session.state, self.session.length
         yield self._pressed("Ctrl+Z", count)
         if self.session.length:
-            self.faults.add(f"{count} changes were to be undone, and {self.session.length} more are there")
+            there = f"focus: {described(QApplication.focusWidget())}, window: {described(QApplication.activeWindow())}"
+            self.faults.add(f"{count} changes were to be undone, and {self.session.length} more are there; {there}")
         if rng.random() < 0.5:
             yield self._pressed("Ctrl+Y", count)
             if digest(settle(last)) != digest(self.session.state):
@@ -188,8 +190,8 @@ class Run:
 
     def _is_busy(self) -> bool:
         """Whether work goes on beside the window; too long is a fault."""
-        window = self.window
-        is_busy = window.opener.is_busy or window.laboratory.worker.is_busy or window.exporter.is_busy
+        workers = (w for of in (self.window, self.session) for w in of.findChildren(Worker))
+        is_busy = self.window.exporter.is_busy or any(worker.is_busy for worker in workers)
         now = time.perf_counter()
         self._since = (self._since or now) if is_busy else None
         if self._since is not None and now - self._since > PATIENCE:
@@ -235,15 +237,15 @@ class Run:
         """The system's own dialogs cannot be driven: their answers are made up."""
         hand, out = self.hand, self.folder / "files"
 
-        def saving(_: object, title: str, suggested: str, *__: object) -> tuple[str, str]:
+        def saving(_: object, title: str, suggested: str, *__: object, **___: object) -> tuple[str, str]:
             name = hand.rng.choice((suggested.rpartition("/")[2], "a", "b", f"c{hand.rng.randrange(9)}"))
             suffix = hand.rng.choice((".png", ".svg", ".pdf", ".xyz", "")) if "picture" in title else ""
             path = str((out / name).with_suffix(suffix) if suffix else out / name)
             return hand.rng.choice((path, path, path, "")), ""
 
         QFileDialog.getSaveFileName = staticmethod(saving)
-        QFileDialog.getOpenFileName = staticmethod(lambda *_: (str(hand.file(hand.rng)), ""))
-        QFileDialog.getExistingDirectory = staticmethod(lambda *_: str(out / "folder"))
+        QFileDialog.getOpenFileName = staticmethod(lambda *_, **__: (str(hand.file(hand.rng)), ""))
+        QFileDialog.getExistingDirectory = staticmethod(lambda *_, **__: str(out / "folder"))
         self._wish, export_to = Wish("png"), self.window.export_to
 
         def exporting(wish: Wish, path: Path) -> None:

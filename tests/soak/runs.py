@@ -16,10 +16,13 @@ from tests.soak.hand import Action
 LONGEST = 10_800
 """Seconds a run may take."""
 
+STEPS = 40
+"""The last ones are told, where a run has failed."""
+
 
 @dataclass(frozen=True)
 class Report:
-    """What came of a run; ``done`` actions are over, and ``link`` leads to where the next one began."""
+    """What came of a run: ``done`` actions are over, a link leads to where the next one began, the last steps."""
 
     faults: list[dict[str, str]]
     done: int = 0
@@ -28,6 +31,7 @@ class Report:
     kinds: dict[str, tuple[int, float, float]] = field(default_factory=dict)
     digests: dict[str, str] = field(default_factory=dict)
     link: str = ""
+    steps: list[str] = field(default_factory=list)
 
 
 def ran(actions: list[Action], folder: Path, begin: str = "", *, loud: bool = False) -> Report:
@@ -42,6 +46,7 @@ def ran(actions: list[Action], folder: Path, begin: str = "", *, loud: bool = Fa
         )  # fmt: skip
         written = journal.read_text(errors="replace").splitlines() if journal.exists() else []
         found = Report(**json.loads(report.read_text())) if report.exists() else _dead(run, actions, written)
+    found.steps.extend(written[-STEPS:])
     if run.stderr.strip() and not found.faults:
         found.faults.append({"at": "some time", "said": f"on the error output: {run.stderr.strip()}"})
     return found
