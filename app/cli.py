@@ -102,13 +102,14 @@ def _bring(options: argparse.Namespace) -> None:
 
     The window asks for itself whether a folder may run, and opens the one that was open last.
     """
+    named: Path | None = getattr(options, "own", None)
+    if named is None and options.run is not open_window:
+        return
     from app import shelf
 
     place, is_window = shelf.usual_place(), options.run is open_window
     kept = shelf.remembered(place)
-    named: Path | None = getattr(options, "own", None)
-    folder = named or (Path(kept.folder) if is_window and kept.folder else None)
-    if folder is None:
+    if (folder := named or (Path(kept.folder) if kept.folder else None)) is None:
         return
     if not (folder.is_dir() or (is_window and named is None)):
         raise Fault(shelf.no_folder(folder))
