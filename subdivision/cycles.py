@@ -2,10 +2,11 @@
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 
-from subdivision.arrays import Indices, Mask
+from subdivision.arrays import Indices, Mask, taken
 from subdivision.exact import Exact
 from subdivision.fans import numbered
 from subdivision.operators import Mean, Operator, Pick
@@ -36,7 +37,14 @@ def vertex_slots(t: Topology, some: Mask) -> tuple[Indices, Indices]:
     """Corners laid end to end, vertex by vertex and counter-clockwise: the place of each (-1: none), and the counts."""
     sizes = np.where(some, np.bincount(t.origin, minlength=t.n_vertices), 0)
     first = np.cumsum(sizes) - sizes
-    return np.where(some[t.origin], first[t.origin] + numbered(t), -1), sizes
+    slots = taken(first, t.origin) + numbered(t)
+    return np.where(taken(some, t.origin), slots, -1), sizes
+
+
+@lru_cache(maxsize=256)
+def _weights(wave: Wave, k: int) -> list[Exact]:
+    """What is to be averaged along a cycle of length ``k``, where a mean divides by ``k`` again."""
+    return [Fraction(k) * wave(k, j) for j in range(k)]
 
 
 def _sums(order: Indices, sizes: Indices, wave: Wave, n: int) -> Operator:
@@ -50,7 +58,7 @@ def _sums(order: Indices, sizes: Indices, wave: Wave, n: int) -> Operator:
         rows.append(np.repeat(members, k))
         columns.append(members[:, (ahead[:, None] + ahead).ravel() % k].ravel())
         entries.append(np.tile(len(table) + ahead, members.size))
-        table += [Fraction(k) * wave(k, j) for j in range(k)]  # a mean divides by k again
+        table += _weights(wave, k)
     row, column, entry = (np.concatenate(parts) if parts else order[:0] for parts in (rows, columns, entries))
     weighed = Weights(tuple(table), entry) * Pick(column, n)
     return Mean(row, np.arange(len(row)), (n, len(row))) @ weighed

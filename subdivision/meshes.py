@@ -45,6 +45,8 @@ def refuses_non_triangles(t: Connectivity) -> str:
 
 def refuses_sharp(t: Topology) -> str:
     """Why ``t`` has sharpness inside that a scheme without creases cannot follow; empty where it has none."""
+    if t.is_smooth:
+        return ""
     creases = np.flatnonzero((t.edge_sharpness > 0) & ~t.boundary)
     if creases.size:
         a, b = t.ends[creases[0]]

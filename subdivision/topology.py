@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, Mask, frozen, taken
+from subdivision.arrays import Floats, Indices, Mask, columns, frozen, taken
 from subdivision.manifold import TopologyError, paired, require_faces
 from subdivision.words import phrase
 
@@ -182,9 +182,9 @@ class Topology:
     @cached_property
     def ends(self) -> Indices:
         """(n_edges, 2) int: the two vertices of every edge."""
-        ends = np.empty((self.n_edges, 2), dtype=np.intp)
-        ends[self.edge] = np.stack([self.origin, self.origin[self.next]], axis=1)
-        return frozen(ends)
+        h = np.zeros(self.n_edges, dtype=np.intp)
+        h[self.edge] = np.arange(self.n_halfedges)  # of two the later
+        return frozen(columns(taken(self.origin, h), taken(self.origin, taken(self.next, h))).reshape(-1, 2))
 
     @cached_property
     def face_sizes(self) -> Indices:

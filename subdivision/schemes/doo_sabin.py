@@ -21,7 +21,7 @@ import numpy as np
 from subdivision import meshes
 from subdivision.averages import edge_midpoints, face_centroids
 from subdivision.cycles import round_faces
-from subdivision.exact import cosine
+from subdivision.exact import Exact, cosine
 from subdivision.limit_rules import dual_limit
 from subdivision.operators import Mean, Operator, Pick, identity, stack
 from subdivision.refine_dual import CORNERS, corners
@@ -106,7 +106,11 @@ def _centroid(t: Topology) -> Operator:
 
 def _lean(t: Topology) -> Operator:
     """(n_halfedges, n_halfedges): from the centroid to the corner of the affinely regular polygon; a vector."""
-    return round_faces(t, lambda n, j: cosine(n, j) * Fraction(2, n))
+    return round_faces(t, _wave)
+
+
+def _wave(n: int, j: int) -> Exact:
+    return cosine(n, j) * Fraction(2, n)
 
 
 def _connect(t: Topology, before: int) -> Stage:

@@ -21,7 +21,7 @@ from functools import partial
 import numpy as np
 
 from subdivision import meshes, refine
-from subdivision.arrays import Indices
+from subdivision.arrays import Indices, taken
 from subdivision.averages import edge_midpoints, face_centroids, neighbours
 from subdivision.four_points import CUBIC, outline, pushed, reflected
 from subdivision.limit_rules import every_vertex_stays
@@ -70,12 +70,13 @@ def face_points(t: Topology, w: Fraction) -> Operator:
 
 def virtual_points(t: Topology, w: Fraction) -> Operator:
     """(n_halfedges, n_vertices): before each half-edge, the point before its origin.  Only inside the mesh."""
-    V, own = t.n_vertices, np.arange(t.n_halfedges)
-    back, ahead = t.next[t.twin], t.twin[t.prev]
-    side, far = t.origin[t.next], t.origin[t.next[t.next]]
+    V, back, ahead = t.n_vertices, taken(t.next, t.twin), taken(t.twin, t.prev)
+    side = taken(t.origin, t.next)
+    far = taken(side, t.next)
     corners = Mean(t.origin, far, (V, V))
-    three = MeanOf(np.stack([side[back], side, side[ahead]], axis=1), V)
-    four = MeanOf(np.stack([far[back[back]], far[back], far[own], far[ahead]], axis=1), V)
+    three = MeanOf(np.stack([taken(side, back), side, taken(side, ahead)], axis=1), V)
+    around = [taken(far, taken(back, back)), taken(far, back), far, taken(far, ahead)]
+    four = MeanOf(np.stack(around, axis=1), V)
     lean = 2 * w / (1 + 2 * w)
     return 4 * neighbours(t)[t.origin] + (-3) * three + 4 * lean * four + (-4 * lean) * corners[t.origin]
 
