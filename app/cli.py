@@ -32,12 +32,6 @@ NAMES = {s.name: s for s in SCHEMES}
 MOST_NAMES = 12
 """More points of the same weight are named by the first and the last."""
 
-MOST_LEVELS = 64
-"""However small, a mesh has more faces than that long before."""
-
-MOST_FACES = 20_000_000
-"""A mesh file beyond this is gigabytes; nobody asks for one on purpose."""
-
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; 0 if all went well, 1 after a fault told in a sentence, 2 after a misuse."""
@@ -554,35 +548,6 @@ def _turned(chosen: list[Lesson], settings: dict[str, int]) -> list[Lesson]:
                 phrase("there is no knob '{name}' here; there are {there}", name=name, there=joined(", ", there))
             )
     return [each.turned(**settings) for each in chosen]
-
-
-def _require_room(control: Mesh, scheme: Scheme, levels: int) -> None:
-    """Ask for no more levels than fit; how many faces each makes is known before it is made."""
-    for level in range(min(levels, MOST_LEVELS) + 1):
-        if (faces := scheme.faces_after(control.surface, level)) > MOST_FACES:
-            raise Fault(_too_deep(levels, level, faces))
-
-
-def _too_deep(levels: int, level: int, faces: int) -> str:
-    """What to choose instead of ``levels``, where ``level`` is the first that does not fit."""
-    if level == 0:
-        return phrase(
-            "the mesh has {faces:,} faces, and {most_faces:,} are made at most; choose a smaller mesh",
-            faces=faces,
-            most_faces=MOST_FACES,
-        )
-    return phrase(
-        "{levels} levels would make {faces:,} faces; choose fewer levels (at most {fitting}, for {most:,} faces are "
-        "made at most)"
-        if level == levels
-        else "{levels} levels would make {faces:,} faces at level {level} already; choose fewer levels (at most "
-        "{fitting}, for {most:,} faces are made at most)",
-        levels=levels,
-        faces=faces,
-        level=level,
-        fitting=level - 1,
-        most=MOST_FACES,
-    )
 
 
 def _listed(names: list[str]) -> str:
