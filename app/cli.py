@@ -359,8 +359,8 @@ class _Parser(argparse.ArgumentParser):
 
     def format_help(self) -> str:
         found = super().format_help()
-        for words in ("usage:", "positional arguments:", "options:"):
-            found = found.replace(words, tr(phrase(words)), 1)
+        for words in (phrase("usage:"), phrase("positional arguments:"), phrase("options:")):
+            found = found.replace(words, tr(words), 1)
         return found
 
 
@@ -414,7 +414,7 @@ def _for_figures(parser: argparse.ArgumentParser) -> None:
 def _for_export(parser: argparse.ArgumentParser) -> None:
     from app.export.wish import FASTEST, FORMATS, SCOPES, SLOWEST
 
-    listed = "; ".join(f"{name}: {kind.title}" for name, kind in FORMATS.items())
+    listed = joined("; ", (phrase("{name}: {kind}", name=name, kind=kind.title) for name, kind in FORMATS.items()))
     parser.add_argument(
         "what", nargs="?", metavar="WHAT", help="a lesson, a session, a link or a mesh; none: the whole lecture"
     )

@@ -1,5 +1,6 @@
 """Words in another language: every text has a translation, with all its gaps, in letters there are; English stays."""
 
+import argparse
 import re
 import threading
 
@@ -11,6 +12,7 @@ import lessons
 from app import words
 from app.draw.compose import compose, said
 from app.draw.type import REGULAR
+from app.export.wish import FORMATS
 from app.link import followed, link
 from app.state import Options, Stop, at_stop, start
 from app.words import LANGUAGES, catalogue_file, speaking, tr
@@ -122,6 +124,33 @@ def test_each_thread_speaks_for_itself():
         thread.join()
         assert tr("black") == "schwarz"
     assert heard == ["black"]
+
+
+def test_no_word_of_the_commands_is_forgotten(monkeypatch, said_now):
+    from app.cli import _parsers
+
+    known = Pseudo({one for one, _ in said_now})
+    monkeypatch.setattr(words, "catalogue", lambda code: known)
+    with speaking(PSEUDO):
+        parser, commands = _parsers()
+        for each in (parser, *commands.values()):
+            helps = [action.help for action in each._actions if action.help not in (None, argparse.SUPPRESS)]
+            helps = [re.sub(r"\b(" + "|".join(FORMATS) + "): ", "", text) for text in helps]
+            assert [text for text in (each.description, *helps) if bare(text)] == [], each.prog
+
+
+def test_the_language_of_a_command_is_asked_for_or_the_systems(capsys, monkeypatch):
+    from app.cli import main
+
+    monkeypatch.setattr(words, "_spoken", "en")
+    mask = ["mask", "--vectors", "1,0 0,1 1,1"]
+    for locale, asked, first in (
+        ("C", [], "1/2 times"), ("C", ["--language", "de"], "1/2 mal"),
+        ("de_AT.UTF-8", [], "1/2 mal"), ("de_AT", ["--language=en"], "1/2 times"),
+    ):
+        monkeypatch.setenv("LC_ALL", locale)
+        assert main([*mask, *asked]) == 0
+        assert capsys.readouterr().out.splitlines()[0] == first
 
 
 # -- pictures -----------------------------------------------------------------------------------

@@ -89,6 +89,9 @@ class _Reader(ast.NodeVisitor):
         elif name in SAID | SHOWN:
             for text in _constants(node.args[0]) if node.args else ():
                 self.found.append(Text(text, self.file))
+        for keyword in node.keywords:
+            if keyword.arg == "help":
+                self.found.extend(Text(text, self.file) for text in _constants(keyword.value))
         if name not in HIDDEN:
             self.generic_visit(node)
 
