@@ -19,11 +19,13 @@ test:
 	@.ci/setup test
 	@.ci/check
 
-pictures: # the README's, drawn again by the program
+pictures: # the README's and the manual's, drawn again by the program
 	@.ci/setup run
 	@mkdir -p assets/pictures
 	@.venv/bin/python -m app figures --out build/pictures/lecture --format png --size 960x540 --sheet assets/pictures/gallery.png
 	@.venv/bin/python -m app figures 5 14 --steps --out build/pictures --format png --size 1440x810
+	@.venv/bin/python -m app.manual.pictures assets/manual/pictures
+	@$(if $(SCREEN),,xvfb-run -a -s "-screen 0 1920x1080x24") .venv/bin/python -m app.gui.shots assets/manual/pictures
 	@cp build/pictures/figure_05_quadruple_then_average-03.png build/pictures/figure_14_cube-05.png assets/pictures
 
 words: # every text into the catalogues of assets/languages, where what is new waits for its translation

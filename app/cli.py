@@ -278,6 +278,18 @@ def write_page(options: argparse.Namespace) -> None:
     print(tr(phrase("{path}: {size:.0f} kB, opens in any browser", path=path, size=size / 1000)))
 
 
+def write_manual(options: argparse.Namespace) -> None:
+    """Write the manual as one HTML file."""
+    from app.gui.sheets import rows
+    from app.manual.chapters import chapters
+    from app.manual.page import write
+
+    try:
+        print(write(options.output, chapters(rows())))
+    except OSError as fault:
+        raise Fault(phrase("{path} cannot be written: {reason}", path=options.output, reason=fault.strerror)) from fault
+
+
 def subdivide_file(options: argparse.Namespace) -> None:
     """Read a mesh, subdivide it, write it."""
     mesh = files.read(options.input)
@@ -504,6 +516,11 @@ def _for_mask(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=print_mask)
 
 
+def _for_manual(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("-o", "--output", type=Path, default=Path("manual.html"), help="file (manual.html)")
+    parser.set_defaults(run=write_manual)
+
+
 COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
     "lessons": (_for_lessons, "list the lessons"),
     "figures": (_for_figures, "render lessons to pictures; needs no screen"),
@@ -512,6 +529,7 @@ COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], str]] = {
     "subdivide": (_for_subdivide, "subdivide a mesh file"),
     "stencil": (_for_stencil, "print exact weights at a valence"),
     "mask": (_for_mask, "print a box spline's mask, degree and continuity"),
+    "manual": (_for_manual, "write the manual as one HTML file"),
 }
 
 

@@ -221,10 +221,17 @@ def sheet(lessons: Sequence[Lesson], options: Options) -> bytes:
     pen = ImageDraw.Draw(whole)
     for k, each in enumerate(lessons):
         x, y = GAP + k % columns * across, GAP + k // columns * down
-        whole.paste(_tile(at_stop(start(each, options), poster(each))), (x, y))
+        whole.paste(tile(at_stop(start(each, options), poster(each)), TILE), (x, y))
         _label(pen, tr(each.title), (x, y + TILE[1] + LINE // 2), theme)
+    return few_colours(whole)
+
+
+def few_colours(image: Any) -> bytes:
+    """A picture as a small PNG file."""
+    from PIL import Image
+
     out = BytesIO()
-    few = whole.quantize(COLOURS, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)  # rare colours stay
+    few = image.quantize(COLOURS, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)  # rare colours stay
     few.save(out, "PNG", optimize=True)
     return out.getvalue()
 
@@ -236,8 +243,8 @@ FINER, COLOURS = 2, 255
 """Tiles are drawn finer and made smaller: smooth."""
 
 
-def _tile(state: State) -> Any:
-    """The panes alone, with strokes for their size."""
+def tile(state: State, size: tuple[int, int]) -> Any:
+    """The panes alone, with strokes for their size in pixels."""
     from PIL import Image
 
     from app.draw.raster import image
@@ -245,8 +252,8 @@ def _tile(state: State) -> Any:
     picture = compose(replace(state, options=replace(state.options, legend=False)))
     panes = tuple(replace(pane, title="", reading="") for pane in picture.panes)
     bare = replace(picture, panes=panes, title="", corner="", stroke=2 * picture.stroke)
-    pixels = image(bare, FINER * TILE[0], FINER * TILE[1], words=False)
-    return Image.fromarray(pixels).convert("RGB").resize(TILE, Image.Resampling.LANCZOS)
+    pixels = image(bare, FINER * size[0], FINER * size[1], words=False)
+    return Image.fromarray(pixels).convert("RGB").resize(size, Image.Resampling.LANCZOS)
 
 
 def _label(pen: Any, title: str, at: tuple[int, int], theme: Theme) -> None:

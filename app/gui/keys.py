@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QAbstractButton, QAbstractItemView, QAbstractSpinBox, QApplication, QComboBox, QLineEdit
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractItemView,
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QLineEdit,
+    QWidget,
+)
 
 from app.asking import answers, is_open, predict, take_back
 from app.draw.pointed import ACROSS
@@ -186,7 +194,8 @@ COMMANDS = (
     Command("redo", "Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), lambda w: w.session.redo(), repeats=True),
     *(Command(id_, name, "Edit", (key,) if key else (), _edit(how)) for id_, name, key, _, how in EDITS),
     *(Command(id_, name, "Edit", (key,), _edit(turn_sharpness, by), repeats=True) for id_, name, key, by in SHARPNESS),
-    Command("keys", "Keys", "Help", ("?", "F1"), lambda w: w.toggle_keys()),
+    Command("manual", "Manual", "Help", ("F1",), lambda w: w.manual.open()),
+    Command("keys", "Keys", "Help", ("?",), lambda w: w.toggle_keys()),
     Command("about", "About Subdivision Studio", "Help", (), lambda w: w.toggle_about()),
     *(_theme(name) for name in ("light", "dark", "projector", "system")),
     *(_language(code, name) for code, name in {SYSTEM: "System", **LANGUAGES}.items()),
@@ -259,6 +268,8 @@ class KeyGuard(QObject):
 def wants(focus: object, event: QKeyEvent) -> bool | None:
     """Whether the widget in focus keeps a key: yes, no, or as it says itself (None)."""
     key, plain = event.key(), not event.modifiers() & ~HARMLESS
+    if isinstance(focus, QWidget) and getattr(focus.window(), "keeps_plain_keys", False):
+        return plain or event.matches(QKeySequence.StandardKey.Copy)
     if own := getattr(focus, "own_keys", None):
         return plain and key in own
     if isinstance(focus, QAbstractSpinBox):

@@ -31,7 +31,7 @@ MENUS = (
                 "@Speed", "", "asking", "take_back", "", "search", "@Lessons", "", "record", "new_lesson",
                 "show_folder")),
     ("Present", ("present", "presenter", "blank", "", "laser", "magnifier")),
-    ("Help", ("keys", "about")),
+    ("Help", ("manual", "keys", "about")),
 )  # fmt: skip
 """Title -> commands; a gap is a line, and ``@`` begins a menu inside."""
 

@@ -45,6 +45,7 @@ from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
 from app.gui.laboratory import Laboratory
 from app.gui.look import GRID, SCALES, colour, dress, fine, icon, line_of, px, rescale, system_theme
+from app.gui.manual import Manual
 from app.gui.notes import Notes
 from app.gui.opening import Opener
 from app.gui.parts import Section, column
@@ -84,6 +85,7 @@ class Window(QMainWindow):
     authoring: Authoring
     recorder: Recorder
     viewport: Viewport
+    manual: Manual
     _body: QWidget
     _sides: dict[str, QWidget]
 
@@ -101,6 +103,7 @@ class Window(QMainWindow):
         self.actions_by_id = {c.id: self._action(c.id) for c in COMMANDS}
         self.viewport = Viewport(session)
         self.banner, self.presenter = Banner(session), Presenter(session)
+        self.manual = Manual(session, self.banner, settings)
         self.worker = Worker(session, self.banner)
         self._build()
         self._put_up()
@@ -498,7 +501,7 @@ class Window(QMainWindow):
         self._views = (
             self.viewport, self.banner, self.timeline, self.contents,
             self.laboratory, self.editing, self.spectrum, self.knobs, self.shown, self.surface, self.why, self.notes,
-            self.presenter,
+            self.presenter, self.manual,
         )  # fmt: skip
         self._sides = {"contents": self.contents, "details": self.details}
         old: list[QWidget] = self._foot.findChildren(Timeline)
@@ -664,6 +667,7 @@ class Window(QMainWindow):
         QApplication.instance().removeEventFilter(self._guard)  # type: ignore[union-attr]
         self._keep()
         self.presenter.close()
+        self.manual.close()
         self.viewport.close_vtk()
         saving.close()
         super().closeEvent(event)

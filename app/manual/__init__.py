@@ -1,0 +1,1 @@
+"""The manual: chapters that were written, and chapters that the program tells of itself."""
