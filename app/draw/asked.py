@@ -18,7 +18,7 @@ from subdivision.arrays import Floats
 from subdivision.exact import spelled
 from subdivision.words import phrase
 
-ASKED, PREDICTION = "asked", "prediction"
+ASKED, PREDICTION = "asked", phrase("prediction")
 """The name of the marker at what is asked for; what the legend calls a prediction."""
 
 MARK = "?"
@@ -120,5 +120,5 @@ def pictures(state: State) -> Iterator[tuple[View, bool]]:
 
 def _verdict(k: int, chosen: int | None, true: int) -> str:
     if k == chosen:
-        return "predicted, and true" if k == true else "predicted"
-    return "true" if k == true else ""
+        return phrase("predicted, and true") if k == true else phrase("predicted")
+    return phrase("true") if k == true else ""
