@@ -2,7 +2,6 @@
 
 import gc
 import logging
-import sys
 import threading
 
 import pytest
@@ -13,7 +12,6 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QWidget
 
 from app.cli import main
 from app.gui.fault import Faults
-from app.keeping import document, read
 from app.report import ROOT, Recent, plain, report_of
 from app.state import choose, drag, first, forward, last, seek, toggle_play
 
