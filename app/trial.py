@@ -164,8 +164,8 @@ def _of_beat(beat: object, sizes: dict[Trace, int]) -> tuple[str, str] | None:
         try:
             checked(beat)
         except ValueError as fault:
-            what, _, mend = str(fault).partition("; ")
-            return what, mend
+            wrong, _, mend = str(fault).partition("; ")
+            return wrong, mend
     if (total := sum(sizes.values())) > MOST_POINTS:
         what = phrase("the lesson has {total:,} points so far, and {most:,} at most can be shown well",
                       total=total, most=MOST_POINTS)  # fmt: skip
