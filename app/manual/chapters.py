@@ -16,6 +16,7 @@ from app.state import at_stop, start, stops
 from app.words import tr
 from lessons.script import Beat, Lesson
 from subdivision.catalogue import FAMILIES, Family, Parameter, scheme
+from subdivision.words import phrase
 
 FOLDER = ASSETS / "manual"
 
@@ -57,7 +58,7 @@ def chapters(keys: Keys) -> tuple[Chapter, ...]:
 
 def written() -> tuple[Chapter, ...]:
     """The chapters that stand in files."""
-    return tuple(Chapter(id_, title, _headed(title, _written(id_))) for id_, title in WRITTEN)
+    return tuple(Chapter(id_, tr(title), _headed(tr(title), _written(id_))) for id_, title in WRITTEN)
 
 
 def _headed(title: str, html: str) -> str:
@@ -94,9 +95,9 @@ def _lesson(lesson: Lesson) -> str:
     places = {stop.beat: stop for stop in stops(state.lesson)}
     steps = [_step(beat, said(at_stop(state, places[k]), beat)) for k, beat in enumerate(state.lesson.beats)]
     picture = f'<p><img src="pictures/{lesson.id}.png" alt="{escape(tr(lesson.title))}" width="{WIDTH}"></p>'
-    ours = f"<p><b>Not in the lecture.</b> {escape(tr(lesson.ours))}</p>" if lesson.ours else ""
-    turned = ", ".join(f"{tr(knob.label)} {knob.least} to {knob.most}" for knob in lesson.knobs)
-    knobs = f"<p><b>To turn:</b> {escape(turned)}.</p>" if turned else ""
+    ours = f"<p><b>{tr('Not in the lecture')}:</b> {escape(tr(lesson.ours))}</p>" if lesson.ours else ""
+    turned = ", ".join(f"{tr(knob.label)} {knob.least} – {knob.most}" for knob in lesson.knobs)
+    knobs = f"<p><b>{tr('To turn')}:</b> {escape(turned)}.</p>" if turned else ""
     name = f'<h2 id="{lesson.id}">{escape(" ".join(tr(lesson.title).split()))}</h2>'
     return f"{name}\n{picture}\n<ol>{''.join(steps)}</ol>\n{knobs}{ours}"
 
@@ -111,23 +112,33 @@ def _step(beat: Beat, caption: str) -> str:
 
 def schemes() -> Chapter:
     """Every scheme of the laboratory: what it is, how it can be told, where it comes from."""
-    title = "Schemes"
-    lead = "<p>What the laboratory offers. A <i>telling</i> is a way to reach the same points by other stages.</p>\n"
+    title = tr("Schemes")
+    lead = f"<p>{tr('What the laboratory offers. A telling is a way to reach the same points by other stages.')}</p>\n"
     return Chapter("schemes", title, _headed(title, lead + "\n".join(map(_scheme, FAMILIES.values()))))
 
 
 def _scheme(family: Family) -> str:
     made = scheme(family.name)
-    tellings = ", ".join(made.tellings)
+    tellings = ", ".join(tr(each) for each in made.tellings)
     numbers = "; ".join(map(_range, family.parameters))
-    parameters = f"<br><b>To choose:</b> {escape(numbers)}" if numbers else ""
-    paper = f'<br><b>Source:</b> <a href="#{made.paper}">{made.paper}</a>' if made.paper else ""
+    parameters = f"<br><b>{tr('To choose')}:</b> {escape(numbers)}" if numbers else ""
+    paper = f'<br><b>{tr("Source")}:</b> <a href="#{made.paper}">{made.paper}</a>' if made.paper else ""
     about = from_docstring(_told_by(family))
-    return f"<h2>{escape(tr(family.title))}</h2>\n{about}<p><b>Told by:</b> {escape(tellings)}{parameters}{paper}</p>"
+    told = f"<p><b>{tr('Told by')}:</b> {escape(tellings)}{parameters}{paper}</p>"
+    return f"<h2>{escape(tr(family.title))}</h2>\n{about}{told}"
 
 
 def _range(p: Parameter) -> str:
-    return p.name if p.is_vectors else f"{p.name} from {p.least} to {p.most}, at first {p.start}"
+    name, start = tr(p.name), f"{p.start}"
+    return (
+        name
+        if p.is_vectors
+        else tr(
+            phrase(
+                "{name} from {least} to {most}, at first {start}", name=name, least=p.least, most=p.most, start=start
+            )
+        )
+    )
 
 
 def _told_by(family: Family) -> str:
@@ -142,7 +153,7 @@ def _told_by(family: Family) -> str:
 
 def key_table(keys: Keys) -> Chapter:
     """Every command that has a key."""
-    title, parts = "Keys", []
+    title, parts = tr("Keys"), []
     for group, those in keys.items():
         rows = "".join(f"<tr><td>{escape(', '.join(k))}</td><td>{escape(what)}</td></tr>\n" for what, k in those)
         parts.append(f'<h2>{escape(tr(group))}</h2>\n<table cellpadding="4">\n{rows}</table>')
@@ -151,6 +162,6 @@ def key_table(keys: Keys) -> Chapter:
 
 def sources() -> Chapter:
     """The papers that docstrings and schemes name."""
-    title = "Sources"
+    title = tr("Sources")
     rows = [f'<p><a name="{key}" id="{key}"></a><b>{key}</b> {text}</p>' for key, text in references().items()]
     return Chapter("sources", title, _headed(title, "\n".join(rows)))
