@@ -55,6 +55,8 @@ class Glyphs:
             instances.uniforms.SetUniformf("perspective", perspective)
 
     def show(self, markers: Sequence[Markers], *, solid: bool) -> None:
+        if not markers and not self.faint.actor.GetVisibility():
+            return
         which = [(m.opacity >= 0.999) == solid for m in markers]
         points = [m.points[w] for m, w in zip(markers, which, strict=True)]
         radius = [m.radius[w] for m, w in zip(markers, which, strict=True)]

@@ -25,7 +25,7 @@ DIRECTIONS = np.array([
 RINGS = np.concatenate([np.arange(12) * 0.5, 6 + np.arange(14) * 2.0])
 """How much further off each round of places is, in heights of the label."""
 
-ROUNDS = np.split(RINGS, [2, 6, 14])
+ROUNDS = np.split(RINGS, [2, 4, 6, 8, 10, 12, 14, 17, 20])
 """Near places are tried first, for mostly one of them is free."""
 
 NEARER = 3.0

@@ -65,6 +65,7 @@ def runs(text: str, bold: bool = False) -> tuple[Run, ...]:
     return _set(text, bold)[5]
 
 
+@lru_cache(maxsize=512)
 def wrapped(text: str, size: float, width: float, bold: bool = False) -> tuple[str, ...]:
     """Lines no wider than ``width``, of even lengths; a formula is never broken."""
     if not text.strip():

@@ -1,6 +1,6 @@
 """The transparent sheet over the panes: everything flat of a picture, painted again only where it has changed."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QRegion
@@ -16,10 +16,15 @@ RIM = 3
 
 
 class Flat(QWidget):
-    """Shows primitives, perhaps through the magnifier; or nothing but black.  The mouse goes through it."""
+    """Shows primitives, perhaps through the magnifier; or nothing but black.  The mouse goes through it.
 
-    def __init__(self, parent: QWidget) -> None:
+    ``below`` draws what is new below it, before it is painted itself: if Qt were told that the picture in space is to
+    be drawn again, it would paint everything over it again too.
+    """
+
+    def __init__(self, parent: QWidget, below: Callable[[], None]) -> None:
         super().__init__(parent)
+        self._below = below
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self._shown: tuple[Primitive, ...] = ()
         self._lens: QPointF | None = None
@@ -30,11 +35,12 @@ class Flat(QWidget):
         was, self._shown = self._shown, tuple(shown)
         looks, self._lens, self._is_blank = (self._lens, self._is_blank), lens, is_blank
         if looks == (lens, is_blank) == (None, False):
-            self.update(changed(was, self._shown))
+            self.update(changed(was, self._shown) + QRect(0, 0, 1, 1))  # at least so much, to be called for the rest
         else:
             self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
+        self._below()
         painter, where = QPainter(self), event.region()
         if self._is_blank:
             painter.fillRect(self.rect(), Qt.GlobalColor.black)
@@ -43,7 +49,7 @@ class Flat(QWidget):
             painter.scale(MAGNIFICATION, MAGNIFICATION)
             paint(painter, self._shown)
         else:
-            paint(painter, (each for each in self._shown if where.intersects(room(each))))
+            paint(painter, (each for each in self._shown if where.intersects(touched(each))))
         painter.end()
 
 
@@ -55,11 +61,11 @@ def changed(before: Sequence[Primitive], after: Sequence[Primitive]) -> QRegion:
     is_in_order = [each for each in before if each in new] == [each for each in after if each in old]
     found = QRegion()
     for each in old ^ new if is_in_order else old | new:
-        found += room(each)
+        found += touched(each)
     return found
 
 
-def room(each: Primitive) -> QRect:
+def touched(each: Primitive) -> QRect:
     """The pixels that something flat may touch."""
     match each:
         case Text():

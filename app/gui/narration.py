@@ -14,6 +14,7 @@ from app.draw.primitives import Text
 from app.draw.theme import THEMES
 from app.draw.type import measure, wrapped
 from app.gui.brush import type_
+from app.gui.flat import touched
 from app.gui.look import GRID, colour
 from app.gui.session import Session
 from app.state import Options, State, stops
@@ -81,7 +82,9 @@ class Narration(QWidget):
         room = self.height() - 1.1 * size - (HINT_ROOM * size if self._hint(state) else 0.0)
         top = 0.3 * size + max(room - tall, 0) / 2
         for text, x, y, align in lines:
-            type_(painter, Text(self.width() / 2 + x, top + y, text, size, theme.ink, align))
+            line = Text(self.width() / 2 + x, top + y, text, size, theme.ink, align)
+            if event.region().intersects(touched(line)):
+                type_(painter, line)
         if hint := self._hint(state):
             small = min(0.62 * size, 0.94 * self.width() / measure(hint, 1.0)[0])
             type_(painter, Text(self.width() / 2, self.height() - 0.55 * small, hint, small, theme.muted, "center"))

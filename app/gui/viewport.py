@@ -69,7 +69,8 @@ class Viewport(QWidget):
         self._painters: list[Any] = []
         self._is_soft = True
         self._empty = QOpenGLWidget(self)  # makes the window one for OpenGL from the start, so that it never flickers
-        self._flat = Flat(self)
+        self._flat = Flat(self, self._draw)
+        self._is_stale = False
         self.narration = Narration(session, self)
         self.pointer = Pointer(self)
         self._calm = QTimer(self, singleShot=True, interval=CALM)
@@ -228,9 +229,20 @@ class Viewport(QWidget):
             if self._is_soft:
                 self._draw_at(samples=0, is_hasty=True)
                 self._calm.start()
-            self._plotter.update()
+            self._is_stale = True
         flat = overlay(self._picture, self.width(), self._tall(), cameras=self.cameras(), words=False)
         self._flat.lay(flat, self._lens, is_blank=self._state.options.blank)
+
+    def _draw(self) -> None:
+        """What is in space, if it has changed."""
+        if self._is_stale and self._plotter is not None:
+            self._is_stale = False
+            if self._plotter.isValid():
+                self._plotter.makeCurrent()
+                self._plotter.paintGL()
+                self._plotter.doneCurrent()
+            else:
+                self._plotter.update()
 
     def _smooth(self) -> None:
         if self._plotter is not None and not self._state.is_playing and not self._is_drag:
