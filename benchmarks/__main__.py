@@ -1,6 +1,6 @@
 """``python -m benchmarks [WORD ...]``: one table of ratios, each with its bound and whether it holds.
 
-Words choose sections: opensubdiv, shapes, growth, peers; all of them without words.  Every
+Words choose sections: opensubdiv, shapes, growth, peers, window; all of them without words.  Every
 engine has one thread and double precision.  The engines take turns, so that a slow moment of
 the machine falls on both; figures are seconds of the processor, the best of the turns, for
 other work only ever adds.
@@ -18,6 +18,7 @@ import numpy as np
 import scipy
 from scipy.spatial import KDTree
 
+from benchmarks import window
 from benchmarks.engines import BUILD, OpenSubdiv, Ours, build
 from benchmarks.files import Control, write
 from benchmarks.meshes import ball, creased, opened, solid
@@ -33,7 +34,10 @@ broken: list[str] = []
 
 
 def main(words: list[str]) -> None:
-    sections = {"opensubdiv": beside_opensubdiv, "shapes": creased_and_open, "growth": growth, "peers": beside_peers}
+    sections = {
+        "opensubdiv": beside_opensubdiv, "shapes": creased_and_open, "growth": growth, "peers": beside_peers,
+        "window": beside_an_empty_window,
+    }  # fmt: skip
     print(f"{processor()}, {os.cpu_count()} processors; Python {platform.python_version()}, numpy {np.__version__}, "
           f"scipy {scipy.__version__}; load {os.getloadavg()[0]:.1f}")  # fmt: skip
     for name in words or sections:
@@ -134,6 +138,17 @@ def beside_peers() -> None:
             continue
         n_faces, theirs = done.stdout.split()[-2:]
         line(f"{name}, {scheme}, {int(n_faces):,} faces", ours, float(theirs), 0.25)
+
+
+def beside_an_empty_window() -> None:
+    title("the window, 1280 x 720, software OpenGL, beside an empty viewport of its size", "ours", "empty")
+    for case, ours, theirs, bound, unit in window.rows():
+        if theirs is not None:
+            line(case, ours, theirs, bound)
+        else:
+            factor, told = (1e3, f"{1e3 * bound:g}") if unit else (1, f"{bound:g}")
+            holds = verdict(ours <= bound, case) if bound < math.inf else ""
+            print(f"{case:<100}{factor * ours:>7.0f} {unit:<2}{'':>19}{told if holds else '':>8}  {holds}", flush=True)
 
 
 def in_turns(*runs: Callable[[], float]) -> list[float]:

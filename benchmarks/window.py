@@ -1,0 +1,326 @@
+"""How fast the window is, beside an empty viewport in an empty window of the same sizes.
+
+Software OpenGL on a virtual screen; ours and the empty one take turns.  Each part runs in a process of its own, which
+prints a row a line: what, ours, theirs (null: nothing to compare with), the bound, the unit.
+"""
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, TypeAlias
+
+ROOT = Path(__file__).parent.parent
+SIZE = 1280, 720
+SCREEN = "-screen 0 1920x1080x24"
+STEP = 0.13
+"""Stages from one picture to the next."""
+
+STARTS = 5
+FACES, LEVEL = 2000, 3
+
+Row: TypeAlias = tuple[str, float, float | None, float, str]
+
+
+def rows() -> Iterator[Row]:
+    """What is measured, part by part."""
+    for part in ("start", "answers", "motion", "rest", "dragging", "lessons", "figures"):
+        command = [sys.executable, "-m", "benchmarks.window", part]
+        screen = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a", "-s", SCREEN]
+        with subprocess.Popen([*screen, *command], cwd=ROOT, stdout=subprocess.PIPE, text=True) as child:
+            assert child.stdout
+            yield from (json.loads(line) for line in child.stdout if line.startswith("["))
+
+
+# -- the two windows --------------------------------------------------------------------------
+
+
+class Pair:
+    """The window of the program and an empty one, on the same screen."""
+
+    def __init__(self, **options: Any) -> None:
+        from PySide6.QtCore import QSettings
+        from PySide6.QtWidgets import QWidget
+        from pyvistaqt import QtInteractor
+
+        from app.gui.application import application
+        from app.gui.session import Session
+        from app.gui.window import Window
+        from app.state import Options, start
+        from lessons import all_lessons
+
+        self.app = application()
+        self.lessons = all_lessons()
+        settings = QSettings("/dev/null", QSettings.Format.IniFormat)
+        self.window = Window(Session(start(self.lessons[0], Options(**options))), settings)
+        self.session = self.window.session
+        self.window.resize(*SIZE)
+        self.window.show()
+        self.wait(0.2)
+        self.window.viewport.start()
+        self.wait(0.5)
+        self.session._timer.timeout.disconnect()
+        view = self.window.viewport._plotter
+        self.holder = QWidget()
+        self.holder.resize(*SIZE)
+        self.plain = QtInteractor(self.holder, auto_update=False, multi_samples=0)
+        self.plain.setGeometry(*view.geometry().getRect())
+        self.holder.show()
+        self.wait(0.3)
+        self.drawn = 0
+        for each in (view, self.plain):
+            each.render_window.AddObserver("EndEvent", self._drew)
+
+    def _drew(self, *_: object) -> None:
+        self.drawn += 1
+
+    def wait(self, seconds: float) -> None:
+        end = time.perf_counter() + seconds
+        while time.perf_counter() < end:
+            self.app.processEvents()
+            time.sleep(0.002)
+
+    def until_drawn(self, wish: Callable[[], object]) -> float:
+        """Seconds of the processor from a wish until its picture is on the screen: other programs take none of them."""
+        self.app.processEvents()
+        drawn, end, start = self.drawn, time.perf_counter() + 5, time.process_time()
+        wish()
+        while self.drawn == drawn and time.perf_counter() < end:
+            self.app.processEvents()
+        return time.process_time() - start
+
+    def empty(self) -> float:
+        return self.until_drawn(self.plain.update)
+
+    def close(self) -> None:
+        sys.stdout.flush()
+        os._exit(0)  # two OpenGL windows in one process come down in no good order
+
+
+def say(what: str, ours: float, theirs: float | None, bound: float, unit: str = "ms") -> None:
+    print(json.dumps([what, ours, theirs, bound, unit]), flush=True)
+
+
+# -- parts ------------------------------------------------------------------------------------
+
+
+def motion() -> None:
+    """Every stage of every lesson, with all labels and the legend."""
+    from app.state import first, forward, open_lesson, tick
+
+    pair = Pair(labels=True, legend=True)
+    do = pair.session.do
+    for lesson in pair.lessons:
+        do(open_lesson, lesson)
+        do(first)
+        pair.wait(0.3)
+        ours = theirs = 0.0
+        while True:
+            place = pair.session.state.beat, pair.session.state.at
+            do(forward)
+            if (pair.session.state.beat, pair.session.state.at) == place and not pair.session.state.is_playing:
+                break
+            frames = []
+            while pair.session.state.is_playing:
+                frames.append(pair.until_drawn(lambda: do(tick, STEP)))
+            if frames:
+                ours += statistics.median(frames)
+                theirs += statistics.median(pair.empty() for _ in frames)
+        if ours:
+            say(f"a picture of {lesson.id} while it plays", ours, theirs, 2.0)
+    pair.close()
+
+
+def rest() -> None:
+    """Nothing is drawn while nothing changes, and what stands is smooth."""
+    pair = Pair()
+    pair.wait(1.0)
+    drawn = pair.drawn
+    pair.wait(3.0)
+    say("pictures drawn in 3 s in which nothing happens", pair.drawn - drawn, None, 0, "")
+    samples = pair.window.viewport._plotter.render_window.GetMultiSamples()
+    say("samples wanting in a picture at rest (4 are there)", max(4 - samples, 0), None, 0, "")
+    pair.close()
+
+
+def dragging() -> None:
+    """From the pointer to the picture, on a control mesh of 2,000 faces shown at level 3."""
+    import numpy as np
+
+    from app.bench import put
+    from app.lab import Lab, Rule
+    from app.state import drag, last
+    from subdivision import Grid, Mesh
+
+    pair = Pair()
+    n, m = 40, FACES // 40
+    grid = Grid(n + 1, m + 1)
+    topology = grid.mesh()
+    x, y = np.meshgrid(np.linspace(-1, 1, n + 1), np.linspace(-1, 1, m + 1), indexing="ij")
+    points = np.stack([x.ravel(), y.ravel(), 0.2 * np.sin(4 * x.ravel()) * np.cos(3 * y.ravel())], axis=1)
+    pair.session.do(put, Lab("sheet", Mesh(topology, points), (Rule("catmull-clark", telling="stencils"),), LEVEL))
+    pair.session.do(last)
+    pair.wait(2.0)
+    vertex = len(points) // 2
+    times, empties = [], []
+    for k in range(30):
+        to = tuple(float(v) for v in points[vertex] + [0, 0, 0.01 * k])
+        times.append(pair.until_drawn(lambda to=to: pair.session.do(drag, vertex, to)))
+        empties.append(pair.empty())
+    shown = pair.session.state.trace(pair.session.state.now.lead)
+    n_faces = shown.topology_at(len(shown.stages)).n_faces
+    say(f"pointer to picture, {FACES:,} faces at level {LEVEL} ({n_faces:,})", *medians(times[3:], empties[3:]), 2.0)
+    pair.close()
+
+
+def lessons() -> None:
+    """From one lesson to the next; and the longest time the thread of the window was away meanwhile."""
+    from app.state import forward, open_lesson
+    from tests.gui.watchdog import LIMIT, Watchdog
+
+    pair = Pair()
+    pair.wait(1.0)
+    pair.session._timer.timeout.connect(pair.session._advance)
+    with Watchdog(pair.window) as dog:
+        for turn in ("for the first time", "again"):
+            times = {}
+            for lesson in pair.lessons:
+                with dog.during(f"opening {lesson.id} {turn}"):
+                    taken = pair.until_drawn(lambda lesson=lesson: pair.session.do(open_lesson, lesson))
+                    times[lesson.id] = taken - pair.empty()
+                    pair.wait(0.4)
+                with dog.during(f"playing {lesson.id} {turn}"):
+                    pair.session.do(forward)
+                    pair.wait(0.3)
+            worst = max(times, key=lambda name: times[name])
+            say(f"opening a lesson {turn}, besides an empty picture; the worst: {worst}", times[worst], None, 0.150)
+            say(f"opening a lesson {turn}, half of them take less", statistics.median(times.values()), None, 0.150)
+    worst = max(dog.gaps, key=lambda gap: min(gap.excess, gap.busy))
+    say(f"the window's thread away: at most, {worst.what}", min(worst.excess, worst.busy), None, LIMIT)
+    print(dog.table(), file=sys.stderr)
+    pair.close()
+
+
+def medians(*times: list[float]) -> list[float]:
+    return [statistics.median(each) for each in times]
+
+
+# -- processes of their own -------------------------------------------------------------------
+
+FIRST = "import benchmarks.window as w; w.{}()"
+
+
+def start() -> None:
+    """From the command to the first picture, beside a program that imports the same and shows an empty viewport."""
+    times: dict[str, list[float]] = {"program": [], "bare": []}
+    for _ in range(STARTS):
+        for name, found in times.items():
+            begin = time.time()
+            done = subprocess.run([sys.executable, "-c", FIRST.format(name)], capture_output=True, text=True, cwd=ROOT)
+            found.append(float(done.stdout.split()[-1]) - begin)
+    say("from the command to the first picture", *medians(*times.values()), 1.3)
+
+
+def program() -> None:
+    """The window as the command opens it, until its first picture is on the screen."""
+    from app.cli import main
+    from app.gui import viewport
+
+    begun = viewport.Viewport.start
+
+    def start(self: Any) -> None:
+        begun(self)
+        self._plotter.frameSwapped.connect(_seen)
+
+    viewport.Viewport.start = start  # type: ignore[method-assign]
+    main([])
+
+
+def bare() -> None:
+    """A viewport with nothing in it, and nothing else, with the libraries that the program has."""
+    os.environ["QT_API"] = "pyside6"
+    import matplotlib.textpath  # noqa: F401
+    import scipy.sparse  # noqa: F401
+    from PySide6.QtWidgets import QApplication
+    from pyvistaqt import QtInteractor
+
+    app = QApplication([])
+    plotter = QtInteractor(auto_update=False, multi_samples=0)
+    plotter.resize(*SIZE)
+    plotter.frameSwapped.connect(_seen)
+    plotter.show()
+    app.exec()
+
+
+def _seen() -> None:
+    print(time.time(), flush=True)
+    os._exit(0)
+
+
+def answers() -> None:
+    """What is answered without a window needs none of its libraries."""
+    for words in (["--help"], ["lessons"]):
+        command = [sys.executable, "-X", "importtime", "-m", "app", *words]
+        told = subprocess.run(command, capture_output=True, text=True, cwd=ROOT).stderr
+        names = [line.rpartition("|")[2].strip() for line in told.splitlines()]
+        heavy = [name for name in names if name.split(".")[0] in ("PySide6", "vtkmodules", "pyvista", "pyvistaqt")]
+        say(f"modules of Qt and VTK that '{' '.join(words)}' imports", len(heavy), None, 0, "")
+
+
+def figures() -> None:
+    """All figures of the lecture as PNG, and what of it takes how long."""
+    begin = time.perf_counter()
+    import tempfile
+
+    from PIL import Image
+
+    from app import figures as app_figures
+    from app.draw import raster
+    from lessons import all_lessons
+    from lessons.script import Lesson
+
+    spent = {"importing": time.perf_counter() - begin}
+    told = all_lessons()
+    begin = time.perf_counter()
+    for lesson in told:
+        assert isinstance(lesson, Lesson)
+        assert lesson.beats
+    spent["telling"] = time.perf_counter() - begin
+    _timed(app_figures, "seen", "composing", spent)
+    _timed(raster, "image", "drawing", spent)
+    _timed(Image.Image, "save", "encoding", spent)
+    windows: list[int] = []
+    built = raster._Studio.__init__
+    raster._Studio.__init__ = lambda self: (windows.append(1), built(self))[1]  # type: ignore[method-assign]
+    with tempfile.TemporaryDirectory() as folder:
+        whole = time.perf_counter()
+        for lesson in told:
+            app_figures.render(lesson, folder)
+        whole = time.perf_counter() - whole
+    for name, seconds in spent.items():
+        say(f"{len(told)} figures as PNG of 1920x1080: {name}", seconds, None, float("inf"))
+    whole += spent["importing"] + spent["telling"]
+    say(f"{len(told)} figures as PNG of 1920x1080: all of it", whole, None, float("inf"))
+    say("off-screen windows made for them", len(windows), None, 1, "")
+
+
+def _timed(holder: Any, name: str, what: str, spent: dict[str, float]) -> None:
+    """Count the seconds that a function takes."""
+    made = getattr(holder, name)
+
+    def timed(*arguments: Any, **options: Any) -> Any:
+        begin = time.perf_counter()
+        try:
+            return made(*arguments, **options)
+        finally:
+            spent[what] = spent.get(what, 0.0) + time.perf_counter() - begin
+
+    setattr(holder, name, timed)
+
+
+if __name__ == "__main__":
+    globals()[sys.argv[1]]()
