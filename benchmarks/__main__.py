@@ -1,6 +1,6 @@
 """``python -m benchmarks [WORD ...]``: one table of ratios, each with its bound and whether it holds.
 
-Words choose sections: opensubdiv, shapes, growth, peers, window; all of them without words.  Every
+Words choose sections: opensubdiv, shapes, beyond, growth, peers, window; all of them without words.  Every
 engine has one thread and double precision.  The engines take turns, so that a slow moment of
 the machine falls on both; figures are seconds of the processor, the best of the turns, for
 other work only ever adds.
@@ -21,10 +21,10 @@ from scipy.spatial import KDTree
 from benchmarks import window
 from benchmarks.engines import BUILD, OpenSubdiv, Ours, build
 from benchmarks.files import Control, write
-from benchmarks.meshes import ball, creased, opened, solid
+from benchmarks.meshes import ball, creased, opened, quadrangulated, solid
 from benchmarks.peers import PEERS
 from subdivision import Scheme
-from subdivision.schemes import CATMULL_CLARK, LOOP
+from subdivision.schemes import CATMULL_CLARK, DOO_SABIN, KOBBELT, LOOP, MID_EDGE, MODIFIED_BUTTERFLY, SQRT3
 
 SCHEMES = {scheme.name: scheme for scheme in (CATMULL_CLARK, LOOP)}
 ROUNDS, BLINK = 11, 5e-3
@@ -35,7 +35,8 @@ broken: list[str] = []
 
 def main(words: list[str]) -> None:
     sections = {
-        "opensubdiv": beside_opensubdiv, "shapes": creased_and_open, "growth": growth, "peers": beside_peers,
+        "opensubdiv": beside_opensubdiv, "shapes": creased_and_open, "beyond": beyond,
+        "growth": growth, "peers": beside_peers,
         "window": beside_an_empty_window,
     }  # fmt: skip
     print(f"{processor()}, {os.cpu_count()} processors; Python {platform.python_version()}, numpy {np.__version__}, "
@@ -112,6 +113,24 @@ def creased_and_open() -> None:
                 )
 
 
+def beyond() -> None:
+    """As many faces as Catmull-Clark makes: mid-edge takes two steps for one, Kobbelt begins with its quads."""
+    title("the schemes beyond, a face, beside Catmull-Clark", "this", "CC")
+    for n, levels, rounds in ((20_000, 2, ROUNDS), (3000, 4, 3)):
+        control = ball(n)
+        plain = Ours(control, CATMULL_CLARK, levels)
+        quads, steps = Ours(quadrangulated(control), KOBBELT, levels - 1), levels + levels // 2
+        others = [Ours(control, DOO_SABIN, levels), Ours(control, MID_EDGE, 2 * levels), quads]
+        others += [Ours(control, MODIFIED_BUTTERFLY, levels), Ours(control, SQRT3, steps)]
+        n_faces = CATMULL_CLARK.faces_after(plain.topology(), levels)
+        for other in others:
+            made = other.scheme.faces_after(other.topology(), other.levels)
+            case = f"{other.control.name}, {other.scheme.name}, {other.levels} levels, {made:,} faces"
+            for what in ("cold", "warm"):
+                a, b = in_turns(getattr(other, what), getattr(plain, what), rounds=rounds)
+                line(f"{case}: {what}", a * n_faces / made, b, 2.0)
+
+
 def growth() -> None:
     title("growth with the number of faces", "", "")
     for scheme in SCHEMES.values():
@@ -151,10 +170,10 @@ def beside_an_empty_window() -> None:
             print(f"{case:<100}{factor * ours:>7.0f} {unit:<2}{'':>19}{told if holds else '':>8}  {holds}", flush=True)
 
 
-def in_turns(*runs: Callable[[], float]) -> list[float]:
+def in_turns(*runs: Callable[[], float], rounds: int = ROUNDS) -> list[float]:
     """The least seconds of each, one after the other, several times, after one turn not counted."""
     first = [run() for run in runs]
-    rounds = ROUNDS * (10 if max(first) < BLINK else 1)
+    rounds *= 10 if max(first) < BLINK else 1
     return [min(times) for times in zip(*([run() for run in runs] for _ in range(rounds)), strict=True)]
 
 

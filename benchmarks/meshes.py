@@ -4,7 +4,8 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from benchmarks.files import Control
-from subdivision import Topology, shapes
+from subdivision import Mesh, Topology, shapes, subdivide
+from subdivision.schemes import CATMULL_CLARK
 
 
 def solid(name: str) -> Control:
@@ -42,6 +43,12 @@ def creased(control: Control, sharpness: float) -> Control:
     creases = np.stack([t.origin[h], t.origin[t.next[h]]], axis=1)
     name = f"{control.name}, creases of {sharpness:g}"
     return Control(name, control.points, control.sizes, control.corners, creases, sharpness)
+
+
+def quadrangulated(control: Control) -> Control:
+    """All quads, by one step of Catmull-Clark."""
+    made = subdivide(Mesh(Topology.from_corners(control.sizes, control.corners), control.points), CATMULL_CLARK, 1)
+    return _control(f"quads of a {control.name}", made.points, made.topology.origin.reshape(-1, 4))
 
 
 def _control(name: str, points: np.ndarray, faces: np.ndarray) -> Control:

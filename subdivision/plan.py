@@ -1,17 +1,20 @@
 """Subdivision of a mesh laid out once for its topology, then applied to points, and to moved points again.
 
 The first levels are kernels, one after the other.  Where the rest is deep, a table for each
-kind of face makes it at once; a small mesh has one table for everything.  Schemes that have
-no kernel are told in stages, which all of this is tested against.
+kind of face makes it at once; a small mesh has one table for everything.  Dual schemes have
+steps of their own.  Schemes that have none are told in stages, which all of this is tested
+against.
 """
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
+from typing import TypeAlias
 
 import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, frozen
+from subdivision.corner_steps import CornerStep
 from subdivision.kernels import Kernel, Rows, Rule, assembled, kernel
 from subdivision.later import Later, later
 from subdivision.rows import Connectivity
@@ -32,6 +35,8 @@ FACES_A_KIND, FINE_FACES_A_KIND = 6, 2_000
 SMALL, SMALL_ENOUGH = 16, 8_000
 """Control points, and points made of them, up to which one dense matrix is the fastest plan."""
 
+AnyStep: TypeAlias = Kernel | Later | CornerStep | Rows | Step | Tables
+
 
 @dataclass(frozen=True, eq=False)
 class Plan:
@@ -41,14 +46,14 @@ class Plan:
     ----------
     topology : Connectivity
         The outcome's.  Of meshes, half-edges, edges and faces are numbered as by the stages.
-    steps : (Kernel or Rows or Step or Tables, ...)
+    steps : (AnyStep, ...)
         One after the other they make the points.
     whole : (n_vertices after, n_vertices before) float, optional
         The product of the steps, where that is small.
     """
 
     topology: Connectivity
-    steps: tuple[Kernel | Later | Rows | Step | Tables, ...]
+    steps: tuple[AnyStep, ...]
     whole: Floats | None = None
 
     def apply(self, points: Floats, out: Floats | None = None) -> Floats:
@@ -90,7 +95,7 @@ def plan(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     laid_out = once(t, scheme, levels)
     if levels > 0 and t.n_vertices <= SMALL and laid_out.topology.n_vertices <= SMALL_ENOUGH:
         return replace(laid_out, whole=np.asfortranarray(laid_out.apply(np.eye(t.n_vertices))))
-    return replace(laid_out, steps=tuple(assembled(s) if isinstance(s, Kernel) else s for s in laid_out.steps))
+    return replace(laid_out, steps=tuple(map(_kept, laid_out.steps)))
 
 
 def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
@@ -113,6 +118,15 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     return Plan(t, tuple(steps))
 
 
+def _kept(step: AnyStep) -> AnyStep:
+    """The same step, slower to make and quicker to apply."""
+    if isinstance(step, Kernel):
+        return assembled(step)
+    if isinstance(step, CornerStep):
+        return step.assembled()
+    return Rows(step.matrix) if isinstance(step, Step) else step
+
+
 def _rule(t: Connectivity, scheme: Scheme) -> Rule | None:
     """What makes the kernels of ``scheme``, if it has any for this mesh."""
     if scheme.reach is None or scheme.refinement is None or not isinstance(t, Topology):
@@ -123,9 +137,9 @@ def _rule(t: Connectivity, scheme: Scheme) -> Rule | None:
 
 
 def _staged(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
-    steps = []
+    steps: list[Step | CornerStep] = []
     for _ in range(levels):
-        steps.append(scheme.step(t))
+        steps.append(CornerStep(t, scheme.corners) if scheme.corners and isinstance(t, Topology) else scheme.step(t))
         t = steps[-1].topology
     return Plan(t, tuple(steps))
 

@@ -38,6 +38,8 @@ class Scheme:
     reach : valence -> number, optional
         How far a smooth vertex goes to the mean of its ring, if that is all that tells the scheme from
         the others of its refinement; then ``plan.py`` knows a fast way.
+    corners : (number of corners, steps ahead) -> weight, optional
+        Likewise of a dual scheme: what a new corner of a face holds of the corner so far ahead of it.
     limit : Connectivity -> Stage, optional
         Points to where they tend to.
     tangents : Topology -> (Operator, Operator), optional
@@ -52,6 +54,7 @@ class Scheme:
     refinement: Refinement | None = None
     rings: int = 1
     reach: Callable[[int], Exact | int] | None = None
+    corners: Callable[[int, int], Exact | int] | None = None
     limit: Callable[[Connectivity], Stage] | None = None
     tangents: Callable[[Topology], tuple[Operator, Operator]] | None = None
 

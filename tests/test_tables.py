@@ -147,13 +147,28 @@ def test_what_has_no_kernel_is_told_in_stages() -> None:
     others = [(literal, QUAD_CENTROID), (Grid(5, 6), tensor_product(3, 3)), (Polyline(7), lane_riesenfeld(3))]
     for topology, scheme in others:
         made = plan(topology, scheme, 2)
-        assert all(isinstance(step, Step) for step in made.steps)
+        assert all(isinstance(step, Step) for step in PLANS.once(topology, scheme, 2).steps)
         points = np.random.default_rng(4).normal(size=(topology.n_vertices, 3))
         expected = scheme.step(scheme.step(topology).topology).apply(scheme.step(topology).apply(points))
         assert np.abs(made.apply(points) - expected).max() < 1e-12
         assert np.abs(made.apply(points, np.empty_like(expected)) - expected).max() < 1e-12
     with pytest.raises(TopologyError, match="cannot subdivide"):
         plan(Grid(5, 6), LOOP, 2)
+
+
+@pytest.mark.parametrize("scheme", [scheme for scheme in SCHEMES if not scheme.reach], ids=lambda s: s.name)
+def test_plans_of_the_schemes_beyond_make_the_points_of_the_stages(scheme: Scheme) -> None:
+    taken = 0
+    for name in QUADS + TRIANGLES:
+        for rule in (Boundary.EDGE, Boundary.LITERAL):
+            mesh = Mesh(shapes.SHAPES[name]().surface.with_boundary(rule), shapes.SHAPES[name]().points)
+            if not scheme.accepts(mesh.topology):
+                continue
+            expected, taken = staged(mesh, scheme, 2), taken + 1
+            made = plan(mesh.topology, scheme, 2)
+            assert_same(made, made.apply(mesh.points), expected, name)
+            assert np.abs(subdivide(mesh, scheme, 2).points - expected.points).max() < 1e-12
+    assert taken
 
 
 def test_meshes_no_table_can_unfold_are_made_step_by_step() -> None:

@@ -47,6 +47,18 @@ def mean_of_four(t: Topology) -> Operator:
     return 1 / 2 * own + 1 / 8 * beside + 1 / 4 * _centroid(t)
 
 
+def cosine_weights(n: int, j: int) -> Exact:
+    """What the new corner of a face of ``n`` holds of the corner ``j`` further round, by [DS78]_."""
+    if j == 0:
+        return Fraction(n + 5, 4 * n)
+    return Fraction(3, 4 * n) + cosine(n, j) * Fraction(1, 2 * n)
+
+
+def four_weights(n: int, j: int) -> Fraction:
+    """The same, by the mean of four."""
+    return Fraction(1, 4 * n) + {0: Fraction(1, 2), 1: Fraction(1, 8), n - 1: Fraction(1, 8)}.get(j, Fraction(0))
+
+
 def split_and_shrink(t: Topology, rule: Rule) -> Step:
     """Topology: every vertex once for each of its faces.  Geometry: every face shrinks, and the gaps open."""
     fine, H = corners(t), t.n_halfedges
@@ -132,6 +144,7 @@ DOO_SABIN = Scheme(
         "stencils": partial(corner_points, rule=cosines),
     },
     refinement=CORNERS,
+    corners=cosine_weights,
     limit=partial(dual_limit, corners=cosines),
 )
 
@@ -146,5 +159,6 @@ DOO_SABIN_MEAN = Scheme(
         "stencils": partial(corner_points, rule=mean_of_four),
     },
     refinement=CORNERS,
+    corners=four_weights,
     limit=partial(dual_limit, corners=mean_of_four),
 )
