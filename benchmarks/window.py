@@ -86,6 +86,7 @@ class Pair:
 
     def until_drawn(self, wish: Callable[[], object]) -> float:
         """Seconds of the processor from a wish until its picture is on the screen: other programs take none of them."""
+        self.window.viewport._calm.stop()  # or it is smoothed while the empty one is looked at
         self.app.processEvents()
         drawn, end, start = self.drawn, time.perf_counter() + 5, time.process_time()
         wish()

@@ -7,8 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import shortest_path
-from scipy.spatial import KDTree
 
 from subdivision.arrays import Floats, Indices
 from subdivision.manifold import TopologyError
@@ -76,11 +74,15 @@ def largest_distance(a: Mesh, b: Mesh) -> float:
 
 def largest_gap(points: Floats, among: Floats) -> float:
     """How far the loneliest of ``points`` (n, 3) is from the nearest point ``among`` others (m, 3)."""
+    from scipy.spatial import KDTree  # a quarter of a second, which no start of the program should wait for
+
     return float(np.max(KDTree(among).query(points)[0], initial=0.0))
 
 
 def edges_apart(t: Connectivity, vertices: Indices) -> Floats:
     """(k, k): how many edges the shortest way between each two of ``vertices`` has; inf where there is none."""
+    from scipy.sparse.csgraph import shortest_path
+
     n, ends = t.n_vertices, t.ends
     graph = csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), (n, n))
     ways: Floats = shortest_path(graph, directed=False, unweighted=True, indices=vertices)
