@@ -423,7 +423,10 @@ class Viewport(QWidget):
         if (found_point := nearest(content, camera, area, at.x(), at.y())) is None:
             return None
         stage, point = found_point
-        return Spot(k, stage if stage >= 0 else int(state.now.views[k].at(state.progress)), point)
+        now = state.now.views[k].at(state.progress)
+        if stage < 0 and now != int(now):
+            return None  # on its way between two stages a point has no row
+        return Spot(k, stage if stage >= 0 else int(now), point)
 
     # -- Qt's own -------------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from app.draw.theme import THEMES
 from app.gui.application import catch_everything
 from app.gui.keys import COMMANDS, spelled_keys
 from app.gui.sheets import rows
-from app.state import axis_of, choose, forward, open_lesson, segments, stops, toggle
+from app.state import axis_of, choose, forward, open_lesson, seek, segments, stops, toggle, turn_view
 from lessons import all_lessons
 from subdivision import shapes
 
@@ -251,6 +251,20 @@ def test_pointing_at_a_vertex_tells_how_it_is_made(qtbot, window):
     QTest.mouseMove(window.viewport._plotter, QPoint(5, 5))
     assert window.session.state.focus is None
     assert "Point at a vertex" in window.why._words.text()
+
+
+def test_where_points_are_on_their_way_the_hand_turns_the_view(window):
+    window.session.do(seek, 1.0)
+    state, view = window.session.state, window.viewport
+    assert state.at == 0.5
+    camera, area = view.cameras()[0], view.areas()[0]
+    for x, y, _ in camera.project(state.now.lead.trace.frame(state.at).points, area[2], area[3]):
+        turn, at = window.session.state.turn, QPoint(round(area[0] + x), round(area[1] + y))
+        drag(view._plotter, at, at + QPoint(20, 10))
+        assert window.session.state.turn != turn
+        window.session.do(turn_view, turn)
+    assert window.session.state.edits == ()
+    assert window.session.state.focus is None
 
 
 def test_dragging_turns_space_and_pans_the_plane_and_a_double_click_undoes_it(window):
