@@ -4,9 +4,26 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
+from PySide6.QtGui import QPaintEvent
+from PySide6.QtWidgets import QComboBox, QStyle, QStyleOptionComboBox, QStylePainter, QVBoxLayout, QWidget
 
+from app.gui.look import px
 from app.words import headed, tr
+
+
+class Box(QComboBox):
+    """Shortens the chosen name by an ellipsis where it has no room, and says it whole when pointed at."""
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter, option = QStylePainter(self), QStyleOptionComboBox()
+        self.initStyleOption(option)
+        painter.drawComplexControl(QStyle.ComplexControl.CC_ComboBox, option)
+        field = QStyle.SubControl.SC_ComboBoxEditField
+        room = self.style().subControlRect(QStyle.ComplexControl.CC_ComboBox, option, field, self)
+        whole = option.currentText
+        option.currentText = self.fontMetrics().elidedText(whole, Qt.TextElideMode.ElideRight, room.width() - px(2))
+        painter.drawControl(QStyle.ControlElement.CE_ComboBoxLabel, option)
+        painter.end()
 
 
 class Choice(QWidget):
@@ -14,9 +31,9 @@ class Choice(QWidget):
 
     def __init__(self, name: str, chosen: Callable[[Any], None]) -> None:
         super().__init__()
-        self.box = QComboBox()
+        self.box = Box()
         self.box.setAccessibleName(tr(name))
-        self.box.setToolTip(tr(name))
+        self.box.currentTextChanged.connect(lambda chosen: self.box.setToolTip(f"{tr(name)}: {chosen}"))
         self.box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.box.setMinimumContentsLength(8)
         self.box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
