@@ -150,6 +150,7 @@ def _plain(text: str, bold: bool) -> tuple[float, float, float, Floats, Indices]
     return width / scale, ASCENT, DESCENT, np.vstack(vertices) / scale, np.concatenate(codes)
 
 
+@lru_cache(maxsize=2048)
 def _math(text: str) -> tuple[float, float, float, Floats, Indices]:
     with _one_at_a_time:
         return _mathematics(text)

@@ -24,7 +24,8 @@ def afresh(name):
 def test_what_was_got_ready_needs_no_formula_set_when_it_is_shown(window, monkeypatch):
     told = tuple(map(afresh, FORMULAS))
     monkeypatch.setattr(ahead, "built_in", lambda: told)
-    type_._set.cache_clear()
+    for known in (type_._set, type_._math):
+        known.cache_clear()
     for piece in ahead.pieces(lambda: window.session.state, window.viewport):
         piece()
     monkeypatch.setattr(type_, "_mathematics", lambda text: pytest.fail(f"{text} had not been set"))
