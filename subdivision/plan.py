@@ -119,9 +119,11 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
 
 
 def _kept(step: AnyStep) -> AnyStep:
-    """The same step, slower to make and quicker to apply."""
+    """The same step, slower to make and quicker to apply; rows of triangles are short."""
     if isinstance(step, Kernel):
         return assembled(step)
+    if isinstance(step, Later) and step.rule.size == 3:
+        return assembled(kernel(step.coarse, step.rule))
     if isinstance(step, CornerStep):
         return step.assembled()
     return Rows(step.matrix) if isinstance(step, Step) else step
