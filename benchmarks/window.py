@@ -110,7 +110,8 @@ def say(what: str, ours: float, theirs: float | None, bound: float, unit: str = 
 
 
 def motion() -> None:
-    """Every stage of every lesson, with all labels and the legend."""
+    """Every stage of every lesson, with all labels and the legend, its words set while the window rested."""
+    from app.gui.ahead import played
     from app.state import first, forward, open_lesson, tick
 
     pair = Pair(labels=True, legend=True)
@@ -118,6 +119,8 @@ def motion() -> None:
     for lesson in pair.lessons:
         do(open_lesson, lesson)
         do(first)
+        for piece in played(lesson, lambda: pair.session.state, pair.window.viewport):
+            piece()
         pair.wait(0.3)
         ours = theirs = 0.0
         while True:

@@ -74,17 +74,18 @@ class Ahead(QObject):
 def pieces(state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
     """The open lesson from here to its end, then the beginning of each other, then all the rest of them."""
     if not bench.is_open(here := state()):
-        yield from _played(here.lesson, state, viewport)
+        yield from played(here.lesson, state, viewport)
     others = [each for each in built_in() if each is not here.lesson]
     for lesson in others:
         yield partial(segments, lesson)
         yield partial(_drawn, lesson, 0, state(), viewport)
         yield partial(room, open_lesson(state(), lesson), viewport.width(), viewport.window().height())
     for lesson in others:
-        yield from _played(lesson, state, viewport)
+        yield from played(lesson, state, viewport)
 
 
-def _played(lesson: Lesson, state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
+def played(lesson: Lesson, state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
+    """A lesson from its first step to its last."""
     for k in range(len(stops(lesson))):
         yield partial(_drawn, lesson, k, state(), viewport)
 
