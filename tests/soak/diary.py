@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from app.draw.fading import faded
-from app.gui.session import REMEMBERED, Session, Transition
-from app.state import State, settle
+from app.gui.session import NOT_UNDONE, REMEMBERED, Session, Transition
+from app.state import Options, State, settle
 from lessons.script import Lesson
 
 
@@ -35,6 +35,7 @@ class Diary(Session):
         self.faults: list[str] = []
         self._telling: Told | None = None
         self._digests: dict[str, list[str]] = {"undo": [], "redo": []}
+        self._top: State | None = None
         self.begin()
 
     def begin(self) -> None:
@@ -59,6 +60,15 @@ class Diary(Session):
         self._telling = Told("redo")
         super().redo()
 
+    def rewrite(self, transition: Transition, *args: Any) -> None:
+        """What it was told from has changed, so a new page begins."""
+        self._telling = None
+        super().rewrite(transition, *args)
+        sides = {"undo": self._past, "redo": self._future}
+        self._digests = {way: [digest(_plain(each)) for each in side] for way, side in sides.items()}
+        self._top = self._past[-1] if self._past else None
+        self.begin()
+
     def check(self) -> None:
         """Tell it all again, without a window: the state, its picture and what can be undone must be the same."""
         states = _told_again(*self._first, self._entries)
@@ -74,21 +84,20 @@ class Diary(Session):
         if self._known is not self.state:
             self.faults.append("the state was changed without being told")
         told, self._telling = self._telling, None
-        assert told is not None
-        if isinstance(told.transition, str):
-            self._travelled(told.transition, state)
-        elif is_remembered := bool(self._past) and self._is_new(self._past[-1]):
-            told = replace(told, is_remembered=is_remembered)
-            self._digests["undo"] = [*self._digests["undo"], digest(_plain(self._past[-1]))][-REMEMBERED - 1 :]
-            self._digests["redo"] = []
-        self._entries.append(told)
-        self._known, self._tops = state, self._past[-1] if self._past else None
+        if told is not None:
+            self._entries.append(self._noted(told, state))
+        self._known, self._top = state, self._past[-1] if self._past else None
         super()._become(state)
 
-    _tops: State | None = None
-
-    def _is_new(self, top: State) -> bool:
-        return top is not self._tops
+    def _noted(self, told: Told, state: State) -> Told:
+        """What is told, and whether what was before it can be undone to."""
+        if isinstance(told.transition, str):
+            self._travelled(told.transition, state)
+        elif self._past and self._past[-1] is not self._top:
+            self._digests["undo"] = [*self._digests["undo"], digest(_plain(self._past[-1]))][-REMEMBERED - 1 :]
+            self._digests["redo"] = []
+            return replace(told, is_remembered=True)
+        return told
 
     def _travelled(self, way: str, state: State) -> None:
         """Undone or redone: it must be what was noted when it was."""
@@ -100,7 +109,7 @@ class Diary(Session):
 
 def _plain(state: State) -> State:
     """What undo brings back; the rest is of the room."""
-    return replace(state, options=replace(state.options, presenting=False, blank=False))
+    return _in_the_room_of(state, Options())
 
 
 def _told_again(state: State, past: list[State], future: list[State], entries: Sequence[Told]) -> tuple[Any, ...]:
@@ -112,16 +121,15 @@ def _told_again(state: State, past: list[State], future: list[State], entries: S
             state = after
         elif told.transition == "undo":
             past, kept, future = past[:-1], past[-1], [*future, settle(state)]
-            state = _in_the_room_of(kept, state)
+            state = _in_the_room_of(kept, state.options)
         else:
             future, kept, past = future[:-1], future[-1], [*past, settle(state)]
-            state = _in_the_room_of(kept, state)
+            state = _in_the_room_of(kept, state.options)
     return state, past, future
 
 
-def _in_the_room_of(kept: State, now: State) -> State:
-    o = now.options
-    return replace(kept, options=replace(kept.options, presenting=o.presenting, blank=o.blank))
+def _in_the_room_of(kept: State, now: Options) -> State:
+    return replace(kept, options=replace(kept.options, **{name: getattr(now, name) for name in NOT_UNDONE}))
 
 
 def digest(value: Any) -> str:

@@ -181,7 +181,8 @@ class Run:
         """One step of the story; whether there is none."""
         said = next(self._steps, None)
         if said is not None:
-            self._note(f"{self._what.partition(': ')[0]}: {said}")
+            if (words := f"{self._what.partition(': ')[0]}: {said}") != self._what:
+                self._note(words)
             self.dog._what = said.partition(" at ")[0]
             return False
         self._see()
