@@ -34,6 +34,7 @@ def has_opengl() -> bool:
 
 def draw(canvas: Any, scene: Scene, area: Area, height: float) -> None:
     """Fill the shapes of a scene into its pane of a canvas of matplotlib's, ``height`` pixels high."""
-    shapes = "".join(projected(scene, area, height, "pane"))
-    pen = Pen(canvas, Affine2D().scale(1, -1).translate(0, height), area)
-    pen.shapes(ElementTree.fromstring(f"<svg>{shapes}</svg>"))
+    parser = ElementTree.XMLParser()
+    for text in ("<svg>", *projected(scene, area, height, "pane"), "</svg>"):
+        parser.feed(text)  # in small pieces: other threads need not wait for a long one
+    Pen(canvas, Affine2D().scale(1, -1).translate(0, height), area).shapes(parser.close())

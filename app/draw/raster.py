@@ -33,15 +33,17 @@ _QUARTER = 0.5522847498307936
 """How far a cubic's handle is from its end, for a quarter of a circle of radius 1."""
 
 
-def image(picture: Picture, width: int, height: int, *, transparent: bool = False, words: bool = True) -> Pixels:
-    """The picture at a size in pixels; ``words`` includes the caption."""
+def image(
+    picture: Picture, width: int, height: int, *, transparent: bool = False, words: bool = True, flat: bool = False
+) -> Pixels:
+    """The picture at a size in pixels; ``words`` includes the caption; ``flat`` fills shapes in, in any thread."""
     canvas = _AGG(width, height, 72)
     pixels = np.asarray(canvas.buffer_rgba())
     pixels[:] = (0, 0, 0, 0) if transparent else (*_bytes(picture.background), 255)
     for pane, area in zip(picture.panes, pane_areas(picture, width, height, words), strict=True):
         if not isinstance(pane.content, Scene):
             continue
-        if (studio := _studio()) is None:
+        if flat or (studio := _studio()) is None:
             from app.draw.drawn import draw
 
             draw(canvas, pane.content, area, height)

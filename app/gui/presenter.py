@@ -1,7 +1,7 @@
 """The presenter's window: what the lecturer reads while the class sees the picture."""
 
 from PySide6.QtCore import QElapsedTimer, QSize, Qt, QTime, QTimer
-from PySide6.QtGui import QFont, QGuiApplication, QHideEvent, QPainter, QPaintEvent, QScreen, QShowEvent
+from PySide6.QtGui import QFont, QGuiApplication, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QScreen, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from app.asking import is_open, spoken_truth
@@ -13,6 +13,7 @@ from app.gui.brush import type_
 from app.gui.furniture import throw_away
 from app.gui.look import GRID, fine, px, type_face
 from app.gui.parts import column, gap, heading
+from app.gui.preview import Preview
 from app.gui.session import Session
 from app.gui.timeline import current
 from app.state import State, at_stop, settle, stops
@@ -28,6 +29,9 @@ SIZE = 960, 600
 
 FORMULA = 30.0
 """Pixels at 100 %."""
+
+PART = 0.42
+"""Of the window's width, and of its height: so large may the picture of what comes next be."""
 
 
 class Presenter(QWidget):
@@ -62,9 +66,10 @@ class Presenter(QWidget):
         self._outside.addWidget(self._inside)
         self.lesson, self.step = _words(18, QFont.Weight.DemiBold), _words(18)
         self.caption, self.formula = _words(28, QFont.Weight.DemiBold), Formula()
-        self.notes, self.following = _words(20), _words(20)
+        self.notes, self.following, self.preview = _words(20), _words(20), Preview(self._session)
         self.clock, self.elapsed = _words(28), _words(28)
         self.again = QPushButton(tr("Start again"))
+        self.again.setFont(type_face(14))
         self.again.setToolTip(tr("Count the time from now"))
         self.again.setAccessibleName(tr("Count the time from now"))
         self.again.setFocusPolicy(Qt.FocusPolicy.TabFocus)
@@ -73,9 +78,9 @@ class Presenter(QWidget):
 
     def _lay_out(self) -> None:
         page = QVBoxLayout(self._inside)
-        page.setContentsMargins(px(4 * GRID), px(3 * GRID), px(4 * GRID), px(3 * GRID))
+        page.setContentsMargins(px(4 * GRID), px(2 * GRID), px(4 * GRID), px(2 * GRID))
         page.setSpacing(px(GRID))
-        top, bottom = QHBoxLayout(), QGridLayout()
+        top, bottom = QHBoxLayout(), QHBoxLayout()
         top.addWidget(self.lesson, 1)
         top.addWidget(self.step)
         reader = QScrollArea(widgetResizable=True)
@@ -83,22 +88,41 @@ class Presenter(QWidget):
         reader.setAccessibleName(tr("Notes"))
         reader.setWidget(self.notes)
         reader.setMinimumHeight(px(10 * GRID))
-        for k, (name, value) in enumerate((("Time", self.clock), ("Elapsed", self.elapsed))):
-            bottom.addWidget(heading(name), 0, k)
-            bottom.addWidget(value, 1, k)
-        bottom.addWidget(self.again, 1, 2)
-        bottom.setColumnStretch(3, 1)
-        bottom.setHorizontalSpacing(px(4 * GRID))
+        now = _spaced(self.caption, self.formula, gap(px(GRID)), heading("Notes"), reader, stretched=reader)
+        below, self._times = QVBoxLayout(), self._lay_out_times()
+        below.addWidget(heading("Next"))
+        below.addWidget(_scrolled(self.following), 1)
+        below.addSpacing(px(GRID))
+        below.addLayout(self._times)
+        bottom.addLayout(below, 1)
+        bottom.addSpacing(px(3 * GRID))
+        bottom.addWidget(self.preview, 0, Qt.AlignmentFlag.AlignBottom)
         page.addLayout(top)
         page.addSpacing(px(GRID))
-        words = (self.caption, self.formula, gap(px(GRID)), heading("Notes"), reader, heading("Next"), self.following)
-        scrolled = QScrollArea(widgetResizable=True)
-        scrolled.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        scrolled.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scrolled.setWidget(_spaced(*words, stretched=reader))
-        page.addWidget(scrolled, 1)
+        page.addWidget(_scrolled(now), 1)
         page.addSpacing(px(GRID))
         page.addLayout(bottom)
+        self._fit()
+
+    def _lay_out_times(self) -> QGridLayout:
+        times = QGridLayout()
+        for k, (name, value) in enumerate((("Time", self.clock), ("Elapsed", self.elapsed))):
+            value.setWordWrap(False)
+            times.addWidget(heading(name), 0, k)
+            times.addWidget(value, 1, k)
+        times.addWidget(self.again, 1, 2)
+        times.setColumnStretch(3, 1)
+        times.setHorizontalSpacing(px(3 * GRID))
+        return times
+
+    def _fit(self) -> None:
+        """What comes next is as large as it leaves room for the words and the times."""
+        room = self.width() - px(11 * GRID) - self._times.sizeHint().width()
+        self.preview.fit(min(round(self.width() * PART), room), round(self.height() * PART))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit()
 
     def open(self, beside: QWidget) -> None:
         """On the other screen if there is one, all over it; else as a window."""
@@ -125,11 +149,13 @@ class Presenter(QWidget):
         self.caption.setText(said(state, state.now))
         self.formula.show_state(state)
         self.notes.setText(noted(state))
-        self.following.setText(upcoming(state))
+        self.following.setText(announced(state))
+        self.preview.show_state(state)
 
     def _show_time(self) -> None:
         self.clock.setText(QTime.currentTime().toString("HH:mm"))
         self.elapsed.setText(spoken_time(self._since.elapsed() // 1000))
+        self._fit()
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
@@ -188,15 +214,15 @@ def noted(state: State) -> str:
     return "\n\n".join(tr(words) for words in (spoken_truth(state), said_so_far, state.now.notes, ours) if words)
 
 
-def upcoming(state: State) -> str:
+def announced(state: State) -> str:
     """What the next step says: its stage and its caption; at the end of a lesson, the next lesson."""
     there = settle(state)
     later = [s for s in stops(state.lesson) if (s.beat, s.at) > (there.beat, there.at)]
     if not later:
         return _next_lesson(state)
     then = at_stop(there, later[0])
-    stage, words = current(then).name, said(then, then.now)
-    return f"{headed(tr(stage))}: {words}" if stage else words
+    stage, words = headed(tr(current(then).name)), said(then, then.now)
+    return words if words.startswith(stage) else f"{stage}: {words}"
 
 
 def _next_lesson(state: State) -> str:
@@ -211,6 +237,15 @@ def spoken_time(seconds: int) -> str:
     """Minutes and seconds, with hours from the first one on."""
     minutes, hours = seconds // 60 % 60, seconds // 3600
     return f"{hours}:{minutes:02}:{seconds % 60:02}" if hours else f"{minutes}:{seconds % 60:02}"
+
+
+def _scrolled(part: QWidget) -> QScrollArea:
+    """What has no room is scrolled to, up and down."""
+    found = QScrollArea(widgetResizable=True)
+    found.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    found.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    found.setWidget(part)
+    return found
 
 
 def _spaced(*parts: QWidget, stretched: QWidget) -> QWidget:

@@ -8,11 +8,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 import lessons
+from app.draw import raster
+from app.draw.compose import compose
 from app.gui import presenter as presenting
 from app.gui import window as windows
 from app.gui.pointer import LIGHT
 from app.gui.presenter import spoken_time
-from app.state import choose, last, open_lesson, skip
+from app.state import choose, first, last, onward, open_lesson, settle, skip
 
 pytestmark = pytest.mark.window
 Key = Qt.Key
@@ -159,6 +161,27 @@ def test_the_presenter_reads_the_caption_the_notes_and_what_comes_next(window, p
     assert presenter.following.text() == "The lesson ends here. Next: " + lessons.find("figure_15_plus_sign").title
     _, now, _, total = presenter.step.text().split()
     assert now == total
+
+
+def small(state, size):
+    return raster.image(compose(state), size.width(), size.height(), words=False, flat=True)
+
+
+@pytest.mark.parametrize("here", [first, last])
+@pytest.mark.parametrize("options", [{}, {"theme": "dark", "as_caption": True, "asking": True}])
+def test_the_small_picture_is_of_just_what_comes_next(qtbot, window, presenter, here, options):
+    window.session.do(choose, **options)
+    window.session.do(open_lesson, lessons.find("figure_14_cube"))
+    window.session.do(here)
+    preview = presenter.preview
+    qtbot.waitUntil(lambda: preview.image is not None, timeout=20_000)
+    image = preview.image.convertToFormat(QImage.Format.Format_RGBA8888)
+    told = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.width(), 4)
+    before = small(window.session.state, image.size())
+    window.session.do(onward)
+    window.session.do(settle)
+    assert np.array_equal(told, small(window.session.state, image.size()))
+    assert not np.array_equal(told, before)
 
 
 def test_all_keys_work_in_the_presenters_window(qtbot, window, presenter):
