@@ -39,7 +39,7 @@ def main() -> int:
         print("\n".join(["the last steps:", *report.steps]))
         sentences.append(_shrunk(wanted, report, options))
     elif not options.begin:
-        sentences += _others(wanted[: round(max(AGAIN * len(wanted), 100))], report, options.folder)
+        sentences += _others(wanted[: round(max(AGAIN * len(wanted), 40))], report, options.folder)
     for sentence in sentences:
         print(sentence)
     print(f"{report.done} actions: {'failed' if sentences else 'held'}")

@@ -191,7 +191,7 @@ class Run:
 
     def _is_busy(self) -> bool:
         """Whether work goes on beside the window; too long is a fault."""
-        workers = (w for of in (self.window, self.session) for w in of.findChildren(Worker))
+        workers = (w for of in (self.session, *QApplication.topLevelWidgets()) for w in of.findChildren(Worker))
         is_busy = self.window.exporter.is_busy or any(worker.is_busy for worker in workers)
         now = time.perf_counter()
         self._since = (self._since or now) if is_busy else None
