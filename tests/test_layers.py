@@ -18,7 +18,8 @@ IMPORTERS = {"__import__", "import_module", "importlib.import_module"}
 LAYERS = {
     "subdivision": ("subdivision",),
     "lessons": ("subdivision", "lessons"),
-    "app.lab": ("subdivision", "lessons", "app.lab"),
+    "app.lately": ("app.lately",),
+    "app.lab": ("subdivision", "lessons", "app.lately", "app.lab"),
     "app.words": ("subdivision", "app.words"),
     "app.state": ("subdivision", "lessons", "app.lab", "app.words", "app.state"),
     "app.asking": ("subdivision", "lessons", "app.state", "app.asking"),
