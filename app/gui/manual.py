@@ -38,9 +38,11 @@ LEFT = 260
 
 PATIENCE = "The manual is being put together…"
 BROKEN = "The manual could not be put together; the log says why."
+NOT_FOUND = "No chapter has all these words; try fewer, or another one."
 TOO_LARGE = "There is no memory left for the manual; close something else and open it again."
 
 WIDTHS = re.compile(r'width="(\d+)"')
+PICTURE = re.compile(r"<p>(<img [^>]*>)</p>")
 TAG = re.compile(r"<[^>]+>")
 
 
@@ -163,18 +165,19 @@ class Manual(QWidget):
     # -- searching ------------------------------------------------------------------------------
 
     def _narrow(self, wanted: str) -> None:
-        """List the chapters in which the words are."""
+        """List the chapters in which all the words are."""
         here = self.list.currentItem()
         kept = here.data(Qt.ItemDataRole.UserRole) if here is not None else ""
         self.list.blockSignals(True)
         self.list.clear()
-        for chapter in self.chapters:
-            if wanted.casefold() in _said(chapter).casefold():
-                item = QListWidgetItem(chapter.title, self.list)
-                item.setData(Qt.ItemDataRole.UserRole, chapter.id)
-                if chapter.id == kept:
-                    self.list.setCurrentItem(item)
+        for chapter in found_in(self.chapters, wanted):
+            item = QListWidgetItem(chapter.title, self.list)
+            item.setData(Qt.ItemDataRole.UserRole, chapter.id)
+            if chapter.id == kept:
+                self.list.setCurrentItem(item)
         self.list.blockSignals(False)
+        if self.chapters and not self.list.count():
+            self.text.setPlainText(tr(NOT_FOUND))
         if self.list.currentItem() is None and self.list.count():
             self.list.setCurrentRow(0)
         else:
@@ -184,12 +187,17 @@ class Manual(QWidget):
         """Choose the first place in the chapter where the words are."""
         if wanted := self.search.text():
             self.text.moveCursor(QTextCursor.MoveOperation.Start)
-            self.text.find(wanted)
+            self._find(wanted)
+
+    def _find(self, wanted: str) -> bool:
+        """Choose the next place of the words, or of the longest if they do not stand together; whether there is one."""
+        together = wanted.casefold() in self.text.toPlainText().casefold()
+        return self.text.find(wanted if together else max(wanted.split(), key=len, default=wanted))
 
     def find_next(self) -> None:
         """The next place; after the last in a chapter, the first in the next one."""
         wanted = self.search.text()
-        if wanted and not self.text.find(wanted) and self.list.count():
+        if wanted and not self._find(wanted) and self.list.count():
             self.list.setCurrentRow((self.list.currentRow() + 1) % self.list.count())
             self._mark()
 
@@ -220,8 +228,14 @@ class Manual(QWidget):
 
 
 def fitted(text: str) -> str:
-    """Pictures as wide as they are at the scale of the window."""
-    return WIDTHS.sub(lambda found: f'width="{px(int(found[1]))}"', text)
+    """Pictures as wide as they are at the scale of the window, in lines as high as they are."""
+    return WIDTHS.sub(lambda found: f'width="{px(int(found[1]))}"', PICTURE.sub(r"<div>\1</div>", text))
+
+
+def found_in(chapters: tuple[Chapter, ...], wanted: str) -> tuple[Chapter, ...]:
+    """The chapters that have all the words."""
+    words = wanted.casefold().split()
+    return tuple(each for each in chapters if all(word in _said(each).casefold() for word in words))
 
 
 def style(theme: Theme) -> str:

@@ -21,6 +21,6 @@ def from_markdown(text: str) -> str:
 
 
 def from_docstring(text: str) -> str:
-    """A docstring of this project: ``code`` in two backquotes, sources as ``[Key]_``."""
-    plain = cleandoc(text).replace("``", "`")
+    """A docstring of this project: ``code`` in two backquotes, ``::`` before a block, sources as ``[Key]_``."""
+    plain = cleandoc(text).replace("``", "`").replace("::\n", ":\n")
     return from_markdown(CITED.sub(r"[\1](#\1)", plain))
