@@ -37,8 +37,8 @@ each = pytest.mark.parametrize("lesson", ALL, ids=lambda one: one.id)
 
 
 @cache
-def recorded_of(lesson, asks=False):
-    return record(start(lesson, Options(asking=asks)))
+def recorded_of(lesson, **options):
+    return record(start(lesson, Options(**options)))
 
 
 def written(lesson, **options):
@@ -209,9 +209,9 @@ def test_a_page_that_cannot_be_written_is_told_in_a_sentence(tmp_path, capsys):
 # -- in a browser -----------------------------------------------------------------------------
 
 
-def browsed(tmp_path, lesson, fragment, *switches, asks=False):
+def browsed(tmp_path, lesson, fragment, *switches, **options):
     path = tmp_path / f"{lesson.id}.html"
-    path.write_bytes(page(recorded_of(lesson, asks)))
+    path.write_bytes(page(recorded_of(lesson, **options)))
     command = [
         BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--v=0",
         f"--user-data-dir={tmp_path / 'profile'}", "--window-size=1280,800", "--virtual-time-budget=20000",
@@ -245,7 +245,7 @@ def test_every_page_plays_in_a_browser_without_a_fault_or_a_request(lesson, tmp_
 @pytest.mark.parametrize("number", ["14", "19"])
 def test_a_page_asks_and_tells_how_near_the_prediction_was(number, tmp_path):
     lesson = lessons.find(number)
-    shown = browsed(tmp_path, lesson, "test", "--dump-dom", asks=True)
+    shown = browsed(tmp_path, lesson, "test", "--dump-dom", asking=True)
     (found,) = re.findall(r'<pre id="report">(.*?)</pre>', shown, re.DOTALL)
     report, beats = json.loads(html.unescape(found)), lesson.asking(True).beats
     assert (report["faults"], report["requests"]) == ([], [])
@@ -257,6 +257,15 @@ def test_a_page_asks_and_tells_how_near_the_prediction_was(number, tmp_path):
             assert words == f"You said {question.answers[0]}; {question.answers[question.truth(beat)]} is true."
         else:
             assert words == f"You said 1; {question.truth(beat) + 1} is true."
+
+
+@browser
+@pytest.mark.parametrize("is_still", [False, True])
+def test_a_page_moves_nothing_if_motion_was_not_wanted_where_it_was_made(is_still, tmp_path):
+    shown = browsed(tmp_path, lessons.find("14"), "test", "--dump-dom", reduced_motion=is_still)
+    (found,) = re.findall(r'<pre id="report">(.*?)</pre>', shown, re.DOTALL)
+    (after,) = [each[1:3] for each in json.loads(html.unescape(found))["keys"] if each[0] == "PageDown"]
+    assert after == ([1, 0] if is_still else [0, 1])
 
 
 @browser

@@ -14,7 +14,7 @@ class Player {
     this.isThrough = false;
     this.isHeld = false;
     this.until = 0;
-    this.prefersStill = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.prefersStill = () => lesson.isStill || matchMedia("(prefers-reduced-motion: reduce)").matches;
   }
 
   get last() {

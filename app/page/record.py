@@ -81,6 +81,7 @@ def record(state: State, progress: Callable[[float], None] = lambda done: None) 
         "legs": legs,
         "low": [float(f"{n:.9g}") for n in tables.low],
         "wide": [float(f"{n:.9g}") for n in tables.wide],
+        **({"isStill": True} if state.options.reduced_motion else {}),
     }
     captions = tuple((said(there, there.now), said(_dark(there), there.now)) for there in stills)
     return Record(light, told, tables, captions)
