@@ -115,6 +115,11 @@ class _Studio:
         flat = to_numpy(grab.GetOutput().GetPointData().GetScalars())
         return np.array(flat.reshape(size[1], size[0], 4)[::-1], dtype=np.uint8)
 
+    def shrink(self) -> None:
+        """Give back the buffers of a large picture, some 100 MB and more."""
+        self._window.SetSize(8, 8)
+        self._window.Render()
+
     def close(self) -> None:
         self._painter.close()
         self._plotter.close()
@@ -129,6 +134,12 @@ def _studio() -> _Studio | None:
     from app.draw.drawn import has_opengl
 
     return _Studio() if has_opengl() else None
+
+
+def shrink() -> None:
+    """Take little memory until the next picture; that needs no new window."""
+    if _studio.cache_info().currsize and (studio := _studio()) is not None:
+        studio.shrink()
 
 
 def close() -> None:

@@ -75,6 +75,7 @@ def image(picture: Picture, seen: QSize) -> QImage:
     from app.draw import raster
 
     pixels = raster.image(picture, *_size(seen))
+    raster.shrink()
     if (context := QOpenGLContext.currentContext()) is not None:
         context.doneCurrent()  # the off-screen window has taken its place without Qt's knowledge
     height, width = pixels.shape[:2]

@@ -11,7 +11,7 @@ from statistics import median
 MOST = 30.0
 """Megabytes by which the second half of a run may grow."""
 
-FEWEST = 2000
+FEWEST = 5000
 """Actions: in a shorter run all that is kept for later is still being filled."""
 
 Sample = tuple[int, float]
