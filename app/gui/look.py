@@ -99,6 +99,8 @@ class Style(QProxyStyle):
     def pixelMetric(
         self, metric: QStyle.PixelMetric, option: QStyleOption | None = None, widget: QWidget | None = None
     ) -> int:
+        if not isinstance(widget, QWidget):  # one that is being made may still bear the name of what was there before
+            widget = None
         if self._is_within:  # one measure asks for another
             return super().pixelMetric(metric, option, widget)
         self._is_within = True

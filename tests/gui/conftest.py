@@ -68,4 +68,5 @@ def window(qtbot, lesson, settings):
         found.close()
         qtbot.wait(10)
     assert not faults
-    found.deleteLater()
+    for each in (found.presenter, found.manual, found):
+        each.deleteLater()

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QApplication, QComboBox, QListView, QWidget
 
@@ -43,6 +44,9 @@ def pseudo():
 def abroad(qtbot, settings, monkeypatch, pseudo):
     """The window in the language in which every text is between brackets."""
     monkeypatch.setattr(words, "catalogue", lambda code: pseudo)
+    for left in QApplication.topLevelWidgets():  # of earlier windows, in other languages
+        left.deleteLater()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     found = Window(Session(start(lessons.find("14"), Options(language=PSEUDO))), settings)
     qtbot.addWidget(found)
     found.resize(1280, 720)

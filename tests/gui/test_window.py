@@ -1,18 +1,16 @@
 """Journeys through the real window, by the keys and the mouse that users have."""
 
-import sys
 import threading
 from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt, qInstallMessageHandler
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage, QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.draw.theme import THEMES
-from app.gui.application import catch_everything
 from app.gui.keys import COMMANDS, spelled_keys
 from app.gui.sheets import rows
 from app.state import axis_of, choose, forward, open_lesson, seek, segments, stops, toggle, turn_view
@@ -375,22 +373,6 @@ def test_a_long_read_says_so_and_can_be_cancelled(qtbot, window, tmp_path, monke
     done.set()
     qtbot.waitUntil(lambda: not window.opener._running, timeout=2000)
     assert values(window.session.state) == before
-
-
-def test_an_uncaught_fault_is_a_sentence_in_the_window_and_its_traceback_is_logged(
-    window, tmp_path, monkeypatch, caplog
-):
-    monkeypatch.setattr("sys.excepthook", None)
-    catch_everything(window, tmp_path / "studio.log")
-    qInstallMessageHandler(None)
-    try:
-        raise ZeroDivisionError("a bug")
-    except ZeroDivisionError as fault:
-        sys.excepthook(type(fault), fault, fault.__traceback__)
-    assert "went wrong" in window.banner.words.text()
-    assert "studio.log" in window.banner.words.text()
-    assert "ZeroDivisionError" not in window.banner.words.text()
-    assert "ZeroDivisionError: a bug" in caplog.text
 
 
 def test_a_message_goes_when_another_lesson_comes(window, lesson):
