@@ -29,10 +29,10 @@ from app.gui.autosave import Autosave
 from app.gui.export import ExportDialog
 from app.gui.window import Window
 from app.gui.worker import Worker
-from app.keeping import taken_up
-from app.link import followed, link
+from app.sessions.keeping import taken_up
+from app.sessions.link import followed, link
+from app.sessions.strict import KeepingError
 from app.state import settle, start
-from app.strict import KeepingError
 from tests.gui.watchdog import Watchdog
 from tests.soak.diary import Diary, digest
 from tests.soak.faults import Faults
@@ -80,7 +80,7 @@ class Run:
         self._since: float | None = None
         self._watching: AbstractContextManager[None] | None = None
         self._begun = time.perf_counter()
-        self._what = ""
+        self._what, self._is_within = "", False
         self._ask_nobody()
 
     def start(self) -> None:
@@ -179,7 +179,9 @@ class Run:
 
     def _go_on(self) -> bool:
         """One step of the story; whether there is none."""
+        self._is_within = True
         said = next(self._steps, None)
+        self._is_within = False
         if said is not None:
             if (words := f"{self._what.partition(': ')[0]}: {said}") != self._what:
                 self._note(words)
@@ -258,6 +260,8 @@ class Run:
 
     def _attend(self) -> None:
         """Answer the dialog that is open; cancel the export of more than a view."""
+        if self._is_within and (popup := QApplication.activePopupWidget()) is not None:
+            popup.close()  # a button's menu, which holds its click up until it is answered
         dialog = QApplication.activeModalWidget()
         if isinstance(dialog, ExportDialog):
             self._answer(dialog, self.hand.rng)
