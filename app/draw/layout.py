@@ -52,6 +52,9 @@ FRAME, ROUND = 7.0, 12.0
 APART = 1.4
 """Between the caption and the formula beside it, relative to the caption's size."""
 
+GUTTER, EDGE = 6.0, 1e-9
+"""Half of what parts panes side by side, where nets that are cut off must not meet; what is no part of a width."""
+
 ROOM, STEPS = 0.55, 32
 """Enlarged type leaves this part of the picture's height to the panes; it is fitted in so many steps."""
 
@@ -106,10 +109,11 @@ def pane_areas(picture: Picture, width: float, height: float, words: bool = True
     picture = _readable(picture, width, height, words)
     around = _words(picture, width, height, words)
     above, below = _title_room(picture, height), _reading_room(picture, height)
-    tall = around.bottom - around.top
+    tall, gutter = around.bottom - around.top, GUTTER * height / 1000
     areas = []
     for x, y, w, h in (p.rect for p in picture.panes):
-        left, right = round(x * width), round((x + w) * width)
+        left = round(x * width + (gutter if x > 0 else 0))
+        right = round((x + w) * width - (gutter if x + w < 1 - EDGE else 0))
         top, bottom = round(around.top + y * tall + above), round(around.top + (y + h) * tall - below)
         areas.append((float(left), float(top), float(max(right - left, 1)), float(max(bottom - top, 1))))
     return areas

@@ -39,7 +39,7 @@ def box_spline(vectors: Sequence[Vector]) -> Scheme:
         tellings={
             "in order": lambda t: told(t, passes),
             "in reverse": lambda t: told(t, [quadruple, *map(average, reversed(rest))]),
-            "stencils": lambda t: at_once("stencils", told(t, passes)),
+            "stencils": lambda t: at_once("all passes", told(t, passes)),
         },
         limit=lambda t: net_limit(t, box_weights(chosen)),
     )

@@ -1,4 +1,4 @@
-"""``python -m app.trial FILE``: a lesson from elsewhere, told and drawn once in a process of its own.
+"""``python -m app.authoring.trial FILE``: a lesson from elsewhere, told and drawn once in a process of its own.
 
 What raises, does not end, or takes too much memory or too many points is found here, where it harms nobody: the
 report names the line, and the file is not loaded by the program that asked.  This guards against mistakes, not
@@ -58,7 +58,7 @@ class Outcome:
 
 def command(path: Path, taken: frozenset[str], seconds: int = SECONDS) -> list[str]:
     """The command that tries a file; ``taken`` are the ids it may not use."""
-    return [sys.executable, "-m", "app.trial", str(seconds), str(path), *sorted(taken)]
+    return [sys.executable, "-m", "app.authoring.trial", str(seconds), str(path), *sorted(taken)]
 
 
 def judged(path: Path, report: bytes, traces: bytes, is_late: bool = False) -> Outcome:

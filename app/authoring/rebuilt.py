@@ -7,7 +7,7 @@ from itertools import product
 
 import numpy as np
 
-from app.keeping import is_same
+from app.sessions.keeping import is_same
 from app.state import State
 from lessons import built_in
 from lessons.measured import without_helpers

@@ -11,8 +11,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from app import bench
-from app.lab import Lab, Rule, natural_family
+from app.laboratory import bench
+from app.laboratory.lab import Lab, Rule, natural_family
 from app.state import Picked, State
 from subdivision import Grid, Mesh, Polyline, Topology, TopologyError, editing
 from subdivision.arrays import Floats

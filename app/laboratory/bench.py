@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
-from app.lab import (
+from app.laboratory.lab import (
     COMFORT,
     LABORATORY,
     MOST_PANES,

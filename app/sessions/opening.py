@@ -8,10 +8,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from app.bench import put
-from app.keeping import SUFFIX, read, taken_up
-from app.lab import lab_of, lesson_of
-from app.link import followed, is_link
+from app.laboratory.bench import put
+from app.laboratory.lab import lab_of, lesson_of
+from app.sessions.keeping import SUFFIX, read, taken_up
+from app.sessions.link import followed, is_link
 from app.state import State
 from subdivision import Mesh, files
 from subdivision.files.faults import printable

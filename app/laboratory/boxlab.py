@@ -12,8 +12,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from app.bench import lab_in, put, same_place
-from app.lab import Lab, Rule, affordable
+from app.laboratory.bench import lab_in, put, same_place
+from app.laboratory.lab import Lab, Rule, affordable
 from app.state import State, at_stop, settle, stops
 from subdivision import Grid, Mesh, TopologyError
 from subdivision.catalogue import Vectors

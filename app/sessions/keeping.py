@@ -21,13 +21,13 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from app import asking
-from app.boxlab import LONGEST, MOST_VECTORS
 from app.draw.pointed import ACROSS
 from app.draw.surface import SHOWS
 from app.draw.theme import THEMES
-from app.lab import LABORATORY, MOST_LEVELS, MOST_PANES, Lab, Rule, lesson_of, require_playable
+from app.laboratory.boxlab import LONGEST, MOST_VECTORS
+from app.laboratory.lab import LABORATORY, MOST_LEVELS, MOST_PANES, Lab, Rule, lesson_of, require_playable
+from app.sessions.strict import Entry, KeepingError, parsed
 from app.state import VALENCES, Edits, Options, Prediction, Spot, State, settle
-from app.strict import Entry, KeepingError, parsed
 from lessons import all_lessons
 from lessons.questions import Where
 from lessons.script import Lesson
@@ -316,7 +316,10 @@ def _lesson(entry: Entry, knobs: Entry, lab: Lab | None, table: Mapping[str, Ent
     lessons = {each.id: each for each in all_lessons()}
     if not isinstance(entry.value, str) or entry.value not in lessons:
         raise entry.fault(
-            phrase("there is no lesson '{name}'; if it is one of your own, open its folder first (File > Lessons folder…)", name=printable(str(entry.value)[:60]))
+            phrase(
+                "there is no lesson '{name}'; if it is one of your own, open its folder first (File > Lessons folder…)",
+                name=printable(str(entry.value)[:60]),
+            )
         )
     lesson = lessons[entry.value]
     limits = {knob.name: (knob.least, knob.most) for knob in lesson.knobs}

@@ -6,9 +6,9 @@ import json
 import re
 import zlib
 
-from app.keeping import document, restored
+from app.sessions.keeping import document, restored
+from app.sessions.strict import KeepingError
 from app.state import Options, State
-from app.strict import KeepingError
 from subdivision.words import phrase
 
 SCHEME = "subdivision-studio:"

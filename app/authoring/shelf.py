@@ -17,8 +17,8 @@ from platformdirs import user_config_path, user_documents_path
 
 import app
 import lessons
-from app.lab import LABORATORY
-from app.trial import GRACE, SECONDS, Outcome, command, judged
+from app.authoring.trial import GRACE, SECONDS, Outcome, command, judged
+from app.laboratory.lab import LABORATORY
 from lessons.own import Fault, LessonError, files_in, guarded, load, require_within
 from lessons.script import Lesson
 from subdivision.files.saving import save

@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
+from app.authoring.pieces import RecordingError, added, assignments, number, plain, string, whole, wrapped
+from app.authoring.rebuilt import EXACT, Source, quote_of, quoting, rebuilt
 from app.draw.compose import compose
 from app.draw.picture import Picture
 from app.draw.pointed import row_of
 from app.draw.seen import from_there
-from app.pieces import RecordingError, added, assignments, number, plain, string, whole, wrapped
-from app.rebuilt import EXACT, Source, quote_of, quoting, rebuilt
 from app.state import State, at_stop, choose, edited, start, stops
 from lessons.own import LessonError, load
 from lessons.script import Beat, Kind, Lesson, View, look_at
