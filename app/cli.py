@@ -99,7 +99,7 @@ def _bring(options: argparse.Namespace) -> None:
     named: Path | None = getattr(options, "own", None)
     if named is None and options.run is not open_window:
         return
-    from app import shelf
+    from app.authoring import shelf
 
     place, is_window = shelf.usual_place(), options.run is open_window
     kept = shelf.remembered(place)
@@ -129,8 +129,8 @@ def _warn(fault: own.Fault) -> None:
 
 def open_window(options: argparse.Namespace) -> int:
     """Open the window, at a lesson and a step if they are named; or at what a link or a file holds."""
-    from app.opening import meant
-    from app.strict import KeepingError
+    from app.sessions.opening import meant
+    from app.sessions.strict import KeepingError
 
     try:
         found = meant(options.lesson or "")
@@ -245,9 +245,9 @@ def export_files(options: argparse.Namespace) -> None:
 
 def _to_export(options: argparse.Namespace) -> State:
     """The state that is meant: of a session, a link or a mesh as it was, else a lesson at its step or its end."""
-    from app.opening import meant
+    from app.sessions.opening import meant
+    from app.sessions.strict import KeepingError
     from app.state import Options, choose, last, open_lesson, start
-    from app.strict import KeepingError
 
     looks = Options(theme=options.theme or "light", as_caption=options.as_caption, scale=options.scale)
     try:

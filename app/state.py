@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from app.lab import LABORATORY, Lab
+from app.laboratory.lab import LABORATORY, Lab
 from app.words import language
 from lessons import all_lessons
 from lessons.script import Beat, Lesson, View

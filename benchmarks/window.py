@@ -155,8 +155,8 @@ def dragging() -> None:
     """From the pointer to the picture, on a control mesh of 2,000 faces shown at level 3."""
     import numpy as np
 
-    from app.bench import put
-    from app.lab import Lab, Rule
+    from app.laboratory.bench import put
+    from app.laboratory.lab import Lab, Rule
     from app.state import drag, last
     from subdivision import Grid, Mesh
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import lessons
-from app import bench, boxlab, keeping
 from app import state as st
 from app.draw import lattice
 from app.draw.compose import compose
@@ -16,6 +15,8 @@ from app.draw.layout import overlay
 from app.draw.picture import Diagram
 from app.draw.primitives import Stroke
 from app.draw.theme import THEMES
+from app.laboratory import bench, boxlab
+from app.sessions import keeping
 from subdivision import TopologyError
 from subdivision.continuity import mask, placement
 from subdivision.schemes import ZWART_POWELL, box_spline

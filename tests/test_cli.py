@@ -81,7 +81,8 @@ def test_figures_are_drawn_once_each_in_the_lectures_order_with_the_knobs_turned
 
 def test_the_window_opens_at_the_lesson_with_its_knobs_turned(capsys, monkeypatch):
     opened = []
-    monkeypatch.setitem(sys.modules, "app.gui.application", SimpleNamespace(run=lambda *given, **_: opened.append(given)))
+    window = SimpleNamespace(run=lambda *given, **_: opened.append(given))
+    monkeypatch.setitem(sys.modules, "app.gui.application", window)
     lesson = next(each for each in lessons.all_lessons() if each.knobs)
     knob = lesson.knobs[0]
     setting = f"{knob.name}={knob.least}"

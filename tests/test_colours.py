@@ -94,7 +94,8 @@ def saturated(c):
 def meanings(theme: Theme):
     """The colours that mean something, by name."""
     extraordinary = {} if theme.extraordinary is None else {EXTRAORDINARY: theme.extraordinary}
-    return {**{r.name: c for r, c in theme.roles.items()}, **extraordinary, "selection": theme.selection, "guess": theme.guess}
+    roles = {role.name: colour for role, colour in theme.roles.items()}
+    return {**roles, **extraordinary, "selection": theme.selection, "guess": theme.guess}
 
 
 def too_near(colours, bound):

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import lessons
-from app import bench, editing
 from app import state as st
 from app.draw.compose import compose
 from app.draw.theme import LIGHT
-from app.keeping import kept, restored
+from app.laboratory import bench, editing
+from app.sessions.keeping import kept, restored
 from app.state import Picked
 from subdivision import TopologyError, shapes
 

@@ -25,7 +25,7 @@ from app.export import FORMATS, ExportError, Wish, export
 from app.export.making import mesh_of
 from app.export.worker import told
 from app.figures import png
-from app.keeping import write
+from app.sessions.keeping import write
 from app.state import at_stop, choose, drag, last, start, stops, turn_view
 from lessons.script import Lesson, play, show
 from lessons.turn import Turn

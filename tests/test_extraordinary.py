@@ -11,12 +11,12 @@ from test_spectrum import TABLE, ring_matrix
 from test_spectrum import quad_lambda as published_lambda
 
 import lessons
-from app import bench
 from app import state as st
 from app.draw.compose import compose
 from app.draw.picture import Diagram, Scene
 from app.draw.spectrum import in_words, said
-from app.keeping import kept, restored
+from app.laboratory import bench
+from app.sessions.keeping import kept, restored
 from subdivision import Mesh, TopologyError, shapes, subdivide
 from subdivision.catalogue import FAMILIES, scheme
 from subdivision.characteristic import characteristic_map

@@ -12,7 +12,7 @@ from app.draw.fading import faded
 from app.draw.film import stage_shots
 from app.draw.picture import Diagram, Scene
 from app.draw.seen import seen
-from app.keeping import kept, restored
+from app.sessions.keeping import kept, restored
 
 CUBE = st.choose(st.start(lessons.find("14")), reduced_motion=True)
 MOVING = next(s for s in st.segments(CUBE.lesson) if s.name == "geometry")

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import lessons
-from app import keeping
-from app.bench import enter
 from app.cli import main
-from app.opening import opening
+from app.laboratory.bench import enter
+from app.sessions import keeping
+from app.sessions.opening import opening
 from app.state import start
 from subdivision import Mesh, TopologyError, files, shapes
 from subdivision.files.text import Lines

@@ -12,13 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 import lessons
-from app import bench, boxlab, keeping
 from app import state as st
-from app.keeping import CHOICES, OF_THE_ROOM, kept, restored
-from app.lab import Lab, Rule, lab_of
-from app.link import HEAD, followed, is_link, link
+from app.laboratory import bench, boxlab
+from app.laboratory.lab import Lab, Rule, lab_of
+from app.sessions import keeping
+from app.sessions.keeping import CHOICES, OF_THE_ROOM, kept, restored
+from app.sessions.link import HEAD, followed, is_link, link
+from app.sessions.strict import Entry, KeepingError
 from app.state import Options, Spot
-from app.strict import Entry, KeepingError
 from lessons.turn import REST
 from subdivision import Boundary, Grid, Mesh, Polyline, Topology, TopologyError, catalogue, shapes
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import lessons
-from app import bench
 from app import state as st
-from app.lab import BUDGET, MOST_PANES, Lab, Rule, affordable, lesson_of
+from app.laboratory import bench
+from app.laboratory.lab import BUDGET, MOST_PANES, Lab, Rule, affordable, lesson_of
 from subdivision import Boundary, Mesh, TopologyError, catalogue, shapes, subdivide
 
 START = st.start(lessons.find("14"))

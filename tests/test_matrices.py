@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import lessons
-from app import bench
 from app import state as st
 from app.draw.compose import compose
 from app.draw.picture import Diagram
+from app.laboratory import bench
 
 CUBE = st.choose(bench.enter(st.start(lessons.find("14"))), matrix=True)
 

@@ -8,16 +8,16 @@ from pathlib import Path
 import pytest
 
 import lessons
-from app import shelf
-from app.beginning import begin, file_in
+from app.authoring import shelf
+from app.authoring.beginning import begin, file_in
+from app.authoring.retold import retold
+from app.authoring.shelf import Shelf, digest, ids, loaded, opened, remember, remembered
+from app.authoring.trial import MOST_POINTS, Outcome, command, judged
 from app.cli import main
 from app.draw.compose import compose
-from app.keeping import kept, restored
-from app.retold import retold
-from app.shelf import Shelf, digest, ids, loaded, opened, remember, remembered
+from app.sessions.keeping import kept, restored
+from app.sessions.strict import KeepingError
 from app.state import at_stop, drag, open_lesson, set_knob, start, stops
-from app.strict import KeepingError
-from app.trial import MOST_POINTS, Outcome, command, judged
 from lessons.own import Fault, LessonError
 
 HEAD = """\

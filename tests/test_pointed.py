@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import lessons
-from app import bench
 from app import state as st
 from app.draw.compose import compose, pointed
 from app.draw.pointed import ACROSS, row_of
 from app.draw.scenes import CONTRIBUTOR, POINTED_OUT
+from app.laboratory import bench
 from subdivision import TopologyError
 from subdivision.limit import limit_points
 

@@ -9,15 +9,15 @@ import pytest
 import lessons
 from app import asking
 from app import state as st
+from app.authoring.trial import tried
 from app.draw.compose import compose
 from app.draw.layout import overlay
 from app.draw.picture import Diagram, Scene, Shape
 from app.draw.primitives import Mark, Text
 from app.draw.theme import THEMES
-from app.keeping import kept, restored
-from app.link import followed, link
-from app.strict import KeepingError
-from app.trial import tried
+from app.sessions.keeping import kept, restored
+from app.sessions.link import followed, link
+from app.sessions.strict import KeepingError
 from lessons.questions import Weight, Where, Which, weight, where, which
 from lessons.script import Lesson, View, at_rest, play, show
 from subdivision import shapes, trace

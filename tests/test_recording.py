@@ -5,13 +5,13 @@ from pathlib import Path
 import pytest
 
 import lessons
-from app import bench, boxlab
+from app.authoring.pieces import RecordingError
+from app.authoring.recording import difference, picture, recorded, shown
+from app.authoring.shelf import ids, loaded
+from app.authoring.trial import tried
 from app.draw.seen import from_there
-from app.pieces import RecordingError
-from app.recording import difference, picture, recorded, shown
-from app.shelf import ids, loaded
+from app.laboratory import bench, boxlab
 from app.state import Spot, at_stop, choose, drag, last, look, open_lesson, seek, skip, start, stops, turn_view
-from app.trial import tried
 from lessons.turn import REST
 from subdivision import Boundary, files, shapes
 

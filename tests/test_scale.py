@@ -9,12 +9,12 @@ import pytest
 
 import app
 import lessons
-from app import keeping, link
 from app.draw.compose import compose
 from app.draw.layout import ROOM, extent, overlay, pane_areas
 from app.draw.picture import Scene
 from app.draw.primitives import LEAST, Text
 from app.draw.theme import THEMES
+from app.sessions import keeping, link
 from app.state import Options, choose, last, start
 
 SIZES = [(1920, 1080), (1080, 1080)]

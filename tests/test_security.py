@@ -11,17 +11,17 @@ from pathlib import Path
 import pytest
 
 import lessons
-from app import keeping
-from app.bench import enter, replace_control
 from app.draw.seen import seen
 from app.draw.vector import svg
 from app.export import Wish, export
-from app.keeping import document, restored
-from app.lab import titled
-from app.link import HEAD, followed, link
+from app.laboratory.bench import enter, replace_control
+from app.laboratory.lab import titled
 from app.page import page_of
+from app.sessions import keeping
+from app.sessions.keeping import document, restored
+from app.sessions.link import HEAD, followed, link
+from app.sessions.strict import KeepingError
 from app.state import State, start
-from app.strict import KeepingError
 from subdivision import shapes
 
 ROOT = Path(__file__).parent.parent
@@ -30,10 +30,10 @@ READING = """
 import sys
 from pathlib import Path
 
-from app.link import followed
-from app.opening import opening
+from app.sessions.link import followed
+from app.sessions.opening import opening
 from app.state import start
-from app.strict import KeepingError
+from app.sessions.strict import KeepingError
 from subdivision import TopologyError, files
 from tests.hostile.corpus import corpus
 import lessons

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.lab import Rule, _size
+from app.laboratory.lab import Rule, _size
 from subdivision import Grid, Mesh, Polyline, shapes, size, subdivide, trace
 from subdivision.catalogue import FAMILIES
 from subdivision.schemes import CATMULL_CLARK, DOO_SABIN, ZWART_POWELL

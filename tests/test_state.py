@@ -4,7 +4,7 @@ import pytest
 
 import lessons
 from app import state as st
-from app.lab import lab_of, lesson_of
+from app.laboratory.lab import lab_of, lesson_of
 from app.state import Stop
 from lessons.turn import REST
 from subdivision import shapes

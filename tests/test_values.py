@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import lessons
-from app import bench
 from app import state as st
 from app.draw import basis, distances, ramps, surface
 from app.draw.compose import compose
@@ -18,7 +17,8 @@ from app.draw.primitives import LEAST, Text
 from app.draw.raster import image
 from app.draw.theme import THEMES
 from app.draw.vector import svg
-from app.keeping import kept, restored
+from app.laboratory import bench
+from app.sessions.keeping import kept, restored
 from subdivision import Boundary, shapes, trace
 from subdivision.curvature import mean_curvature
 from subdivision.limit import limit_points

@@ -13,7 +13,7 @@ from app import words
 from app.draw.compose import compose, said
 from app.draw.type import REGULAR
 from app.export.wish import FORMATS
-from app.link import followed, link
+from app.sessions.link import followed, link
 from app.state import Options, Stop, at_stop, start
 from app.words import LANGUAGES, catalogue_file, speaking, tr
 from subdivision.words import joined, phrase, plural

@@ -11,12 +11,12 @@ from typing import TypeAlias
 
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
 
-from app import bench
 from app.draw.compose import compose
 from app.draw.layout import overlay
 from app.gui.narration import room
 from app.gui.session import Session
 from app.gui.viewport import Viewport
+from app.laboratory import bench
 from app.log import LOG
 from app.state import State, at_stop, open_lesson, segments, stops
 from lessons import built_in

@@ -26,8 +26,8 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QGuiApplication, QOffscreenSurface, QOpenGLContext, QSurfaceFormat
 from PySide6.QtWidgets import QApplication
 
-from app import shelf
 from app.asking import toggle_asking
+from app.authoring import shelf
 from app.draw.theme import THEMES
 from app.gui import look, lost
 from app.gui.ahead import Ahead

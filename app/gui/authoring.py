@@ -13,15 +13,15 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog
 
 import lessons
-from app import shelf
-from app.beginning import SUFFIX, begin, file_in, free_file
+from app.authoring import shelf
+from app.authoring.beginning import SUFFIX, begin, file_in, free_file
+from app.authoring.retold import retold
+from app.authoring.shelf import Shelf
+from app.authoring.trial import Outcome
 from app.gui.consent import Consent
 from app.gui.trials import Trials
 from app.gui.worker import Worker
-from app.retold import retold
-from app.shelf import Shelf
 from app.state import open_lesson
-from app.trial import Outcome
 from app.words import tr
 from lessons.own import Fault, LessonError, files_in, require_within
 from lessons.script import Lesson

@@ -10,9 +10,9 @@ from platformdirs import user_state_path
 from PySide6.QtCore import QLockFile, QObject, QThreadPool, QTimer, Signal
 
 from app.gui.session import Session, is_same_picture
-from app.keeping import SUFFIX, read, taken_up, write
+from app.sessions.keeping import SUFFIX, read, taken_up, write
+from app.sessions.strict import KeepingError
 from app.state import State
-from app.strict import KeepingError
 from subdivision.words import phrase
 
 SOON = 2000

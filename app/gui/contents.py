@@ -14,12 +14,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.bench import enter
 from app.draw.theme import THEMES
 from app.gui.furniture import scroll_alike
 from app.gui.look import GRID, chosen_of, colour, fine, icon, px, tint_of, type_face
 from app.gui.session import Session
-from app.lab import LABORATORY, SECTION
+from app.laboratory.bench import enter
+from app.laboratory.lab import LABORATORY, SECTION
 from app.state import State, open_lesson
 from app.words import tr
 from lessons.script import OWN, Lesson

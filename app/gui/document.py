@@ -8,7 +8,7 @@ from typing import Any
 from PySide6.QtCore import QSettings
 
 from app.gui.session import Session, is_same_picture
-from app.keeping import write
+from app.sessions.keeping import write
 from app.state import State
 
 REMEMBERED = 8

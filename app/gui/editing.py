@@ -10,13 +10,13 @@ from typing import Any
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QSlider, QVBoxLayout, QWidget
 
-from app import bench, editing
 from app.gui.banner import Banner
 from app.gui.look import GRID, px, sized, type_face
 from app.gui.parts import Section
 from app.gui.session import Session
 from app.gui.shown import Switch
 from app.gui.stepper import Stepper
+from app.laboratory import bench, editing
 from app.state import State
 from app.words import tr
 from subdivision import Connectivity, Grid, Polyline, Topology, TopologyError

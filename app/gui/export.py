@@ -21,14 +21,14 @@ from PySide6.QtWidgets import (
 )
 
 import app
-from app import keeping
 from app.export.wish import FORMATS, OPAQUE, ExportError, Wish
 from app.export.worker import told
 from app.figures import BACKGROUNDS
 from app.gui.banner import Banner
 from app.gui.look import GRID, px
+from app.sessions import keeping
+from app.sessions.strict import KeepingError
 from app.state import State
-from app.strict import KeepingError
 from app.words import headed, tr
 from subdivision.words import phrase
 

@@ -18,12 +18,12 @@ from PySide6.QtWidgets import (
 
 from app.asking import answers, is_open, predict, take_back
 from app.draw.pointed import ACROSS
-from app.editing import turn_sharpness
 from app.gui.editing import EDITS, SHARPNESS
 from app.gui.look import SCALES
 from app.gui.shown import SHOWN
 from app.gui.surface import NEXT, SWITCHES, show_next
 from app.gui.timeline import SPEEDS, next_speed, spoken_speed
+from app.laboratory.editing import turn_sharpness
 from app.state import (
     Options,
     State,

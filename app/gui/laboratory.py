@@ -7,7 +7,6 @@ from typing import Any
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
-from app import bench
 from app.gui.banner import Banner
 from app.gui.choice import Choice
 from app.gui.look import GRID, px
@@ -16,7 +15,8 @@ from app.gui.session import Session
 from app.gui.stepper import Stepper
 from app.gui.vectors import Vectors
 from app.gui.worker import Worker
-from app.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, titled
+from app.laboratory import bench
+from app.laboratory.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, titled
 from app.state import State
 from app.words import tr
 from subdivision import Boundary, Topology, TopologyError, shapes

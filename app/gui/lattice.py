@@ -9,10 +9,10 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFocusEvent, QFont, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app import boxlab
 from app.draw.theme import THEMES, mixed
 from app.gui.look import GRID, colour, fine, line_of, px, type_face
 from app.gui.session import Session
+from app.laboratory import boxlab
 from app.state import State
 from app.words import tr
 from subdivision import Role

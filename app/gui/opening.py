@@ -6,7 +6,7 @@ from pathlib import Path
 from app.gui.banner import Banner
 from app.gui.session import Session
 from app.gui.worker import Worker
-from app.opening import Opening, opening
+from app.sessions.opening import Opening, opening
 from subdivision.words import phrase
 
 

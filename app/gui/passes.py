@@ -7,9 +7,9 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QFont, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QSizePolicy
 
-from app import boxlab
 from app.gui.look import px, type_face
 from app.gui.session import Session
+from app.laboratory import boxlab
 from app.state import State
 from app.words import tr
 from subdivision.catalogue import Vectors

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
-from app import shelf
-from app.beginning import SUFFIX, file_in, free_file, identifier, titled
+from app.authoring import shelf
+from app.authoring.beginning import SUFFIX, file_in, free_file, identifier, titled
+from app.authoring.pieces import RecordingError
+from app.authoring.recording import Recorded, recorded
 from app.gui.worker import Worker
-from app.pieces import RecordingError
-from app.recording import Recorded, recorded
 from app.state import State, settle
 from app.words import tr
 from subdivision.files import FileError

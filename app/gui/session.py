@@ -6,8 +6,8 @@ from typing import Any, TypeAlias
 
 from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 
-from app.bench import pull
-from app.boxlab import move_pass, move_vector
+from app.laboratory.bench import pull
+from app.laboratory.boxlab import move_pass, move_vector
 from app.report import Recent
 from app.state import Options, State, drag, look, seek, settle, tick, turn_view
 
@@ -72,7 +72,10 @@ class Session(QObject):
         self._become(after)
 
     def rewrite(self, transition: Transition, *args: Any) -> None:
-        """Apply a transition to the state and to all that can be undone and redone: what it was told from has changed."""
+        """Apply a transition to the state and to all that can be undone and redone.
+
+        What they were told from has changed.
+        """
         self._past = [transition(each, *args) for each in self._past]
         self._future = [transition(each, *args) for each in self._future]
         after = transition(self.state, *args)

@@ -12,13 +12,14 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
 import lessons
-from app import asking, bench
+from app import asking
 from app.export.wish import Wish
 from app.gallery import few_colours
 from app.gui.application import application
 from app.gui.export import ExportDialog
 from app.gui.session import Session
 from app.gui.window import Window
+from app.laboratory import bench
 from app.state import Spot, State, choose, first, last, look, onward, open_lesson, settle, start
 from lessons.questions import Where
 

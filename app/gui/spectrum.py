@@ -7,14 +7,14 @@ from html import escape
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
-from app import bench
 from app.draw.theme import THEMES, Theme
 from app.gui.look import GRID, colour, px, sized, type_face
 from app.gui.parts import Section
 from app.gui.pull import PullSlider, Track
 from app.gui.session import Session
 from app.gui.stepper import Stepper
-from app.lab import Rule
+from app.laboratory import bench
+from app.laboratory.lab import Rule
 from app.state import VALENCES, State, turn_valence, valence_of
 from app.words import tr
 from subdivision import TopologyError

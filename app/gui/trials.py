@@ -5,9 +5,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 
+from app.authoring.shelf import ROOT
+from app.authoring.trial import GRACE, SECONDS, Outcome, command, judged
 from app.gui.banner import Banner
-from app.shelf import ROOT
-from app.trial import GRACE, SECONDS, Outcome, command, judged
 from subdivision.words import phrase
 
 PATIENCE = 1500

@@ -8,7 +8,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
-from app import boxlab
 from app.gui.choice import Choice
 from app.gui.lattice import Lattice
 from app.gui.look import GRID, px, sized, type_face
@@ -17,6 +16,7 @@ from app.gui.parts import Section
 from app.gui.passes import Passes
 from app.gui.session import Session
 from app.gui.shown import Switch
+from app.laboratory import boxlab
 from app.state import State, toggle
 from app.words import tr
 from subdivision import TopologyError

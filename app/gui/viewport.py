@@ -11,7 +11,6 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResize
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
-from app import bench
 from app.asking import is_open, predict
 from app.draw.fading import faded
 from app.draw.layout import fitted, overlay, pane_areas, part_at
@@ -20,7 +19,6 @@ from app.draw.primitives import Area
 from app.draw.seen import from_there
 from app.draw.selected import is_pickable
 from app.draw.turned import turned
-from app.editing import extended
 from app.gui.flat import Flat
 from app.gui.grip import AXES, Grip
 from app.gui.lens import MAGNIFICATION, WHOLE, enlarged, window, within
@@ -30,6 +28,8 @@ from app.gui.pointer import Pointer
 from app.gui.pointing import nearest, part
 from app.gui.predicting import predicted
 from app.gui.session import Session
+from app.laboratory import bench
+from app.laboratory.editing import extended
 from app.state import Picked, Spot, State, drag, is_turned_only, look, pick, put_back, turn_view
 from app.words import tr
 from lessons.turn import REST, Turn

@@ -27,7 +27,6 @@ from PySide6.QtWidgets import (
 )
 
 import lessons
-from app import bench
 from app.asking import toggle_asking
 from app.draw.theme import THEMES
 from app.export.wish import Wish
@@ -61,12 +60,13 @@ from app.gui.tongue import speak_everywhere
 from app.gui.viewport import Viewport
 from app.gui.why import Why
 from app.gui.worker import Worker
-from app.keeping import SUFFIX, named, taken_up
-from app.link import followed, link
-from app.opening import OPENABLE
+from app.laboratory import bench
 from app.report import apart
+from app.sessions.keeping import SUFFIX, named, taken_up
+from app.sessions.link import followed, link
+from app.sessions.opening import OPENABLE
+from app.sessions.strict import KeepingError
 from app.state import State, choose, pick
-from app.strict import KeepingError
 from app.words import SYSTEM, language, system_language, tr
 from subdivision.words import phrase
 

@@ -7,7 +7,7 @@ from typing import Any
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
 
 from app.gui.banner import Banner
-from app.strict import KeepingError
+from app.sessions.strict import KeepingError
 from subdivision import TopologyError
 from subdivision.files import FileError
 

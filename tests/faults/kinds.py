@@ -7,9 +7,9 @@ from hashlib import sha256
 from pathlib import Path
 
 import lessons
-from app import keeping
 from app.export import FORMATS, Wish, export
 from app.figures import write as write_figure
+from app.sessions import keeping
 from app.state import State, choose, drag, last, start
 from subdivision import Mesh, files, shapes, subdivide
 from subdivision.schemes import CATMULL_CLARK

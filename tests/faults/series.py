@@ -17,7 +17,7 @@ from pathlib import Path
 from app.export.wish import ExportError
 from app.figures import FigureError
 from app.gui.saving import SavingError
-from app.strict import KeepingError
+from app.sessions.strict import KeepingError
 from subdivision import TopologyError
 from subdivision.files import FileError
 from tests.faults.child import Events, Sound, asked, forked, kill_sometime, over, writing

@@ -8,12 +8,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
 import lessons
-from app import bench
+from app.authoring.recording import difference, picture
+from app.authoring.shelf import remembered
 from app.export.wish import Wish
 from app.gui.consent import Consent
 from app.gui.contents import FAULT, LESSON
-from app.recording import difference, picture
-from app.shelf import remembered
+from app.laboratory import bench
 from app.state import at_stop, drag, last, open_lesson, skip, start, stops
 
 pytestmark = pytest.mark.window
@@ -141,7 +141,7 @@ def test_a_file_that_changes_is_shown_again_at_its_place_and_a_broken_one_is_nam
 
 
 def test_one_that_never_ends_is_stopped_and_listed_while_the_window_lives(qtbot, window, folder, monkeypatch):
-    monkeypatch.setattr("app.trial.SECONDS", 2)
+    monkeypatch.setattr("app.authoring.trial.SECONDS", 2)
     monkeypatch.setattr("app.gui.trials.command", lambda path, taken: _short(path, taken))
     (folder / "ever.py").write_text("while True:\n    pass\n")
     opened(qtbot, window, folder, monkeypatch)
@@ -213,6 +213,6 @@ def test_what_is_shown_is_recorded_by_one_key_into_a_lesson_that_shows_it(qtbot,
 
 
 def _short(path, taken):
-    from app.trial import command
+    from app.authoring.trial import command
 
     return command(path, taken, 2)

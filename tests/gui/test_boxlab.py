@@ -9,9 +9,9 @@ from PySide6.QtGui import QFontMetricsF, QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from app import bench, boxlab
 from app.gui.look import type_face
 from app.gui.vectors import Vectors
+from app.laboratory import bench, boxlab
 from app.state import at_stop, last, stops
 from subdivision import TopologyError
 from subdivision.continuity import mask

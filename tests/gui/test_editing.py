@@ -5,8 +5,8 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from app import bench
-from app.keeping import kept, restored
+from app.laboratory import bench
+from app.sessions.keeping import kept, restored
 from app.state import Picked, choose, drag, last
 from subdivision import Polyline, editing, schemes, shapes, subdivide
 

@@ -9,11 +9,11 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from app import bench
 from app.draw.theme import THEMES
 from app.gui.keys import BY_ID
 from app.gui.look import colour
 from app.gui.spectrum import decimals
+from app.laboratory import bench
 from app.state import Spot, last, look, open_lesson, valence_of
 from subdivision import subdivide
 from subdivision.catalogue import scheme

@@ -7,9 +7,9 @@ from PySide6.QtCore import SIGNAL, QCoreApplication, QEvent, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from app import bench
 from app.draw.compose import said
 from app.gui.parts import Head
+from app.laboratory import bench
 from app.state import Spot, choose, forward, look, toggle
 
 pytestmark = pytest.mark.window

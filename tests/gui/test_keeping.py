@@ -14,12 +14,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
 import lessons
-from app import bench
 from app.cli import main
 from app.gui.autosave import Autosave
 from app.gui.menus import _list_recent
-from app.keeping import document, kept, read, write
-from app.link import HEAD, followed, link
+from app.laboratory import bench
+from app.sessions.keeping import document, kept, read, write
+from app.sessions.link import HEAD, followed, link
 from app.state import choose, drag, forward, last, open_lesson, seek, start, turn_view
 from lessons.turn import REST
 

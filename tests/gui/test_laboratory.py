@@ -5,9 +5,9 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from app import bench
 from app.gui.parts import Head
-from app.lab import LABORATORY
+from app.laboratory import bench
+from app.laboratory.lab import LABORATORY
 from app.state import choose, drag, last, level_of
 from subdivision import shapes
 

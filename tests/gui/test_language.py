@@ -9,12 +9,13 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QApplication, QComboBox, QListView, QWidget
 
 import lessons
-from app import bench, words
+from app import words
 from app.gui.export import ExportDialog
 from app.gui.keys import COMMANDS, MOUSE
 from app.gui.session import Session
 from app.gui.window import Window
-from app.link import link
+from app.laboratory import bench
+from app.sessions.link import link
 from app.state import Options, Picked, choose, forward, last, open_lesson, pick, settle, start, toggle
 from app.words import ENGLISH, speak, tr
 from tests.words.__main__ import gathered

@@ -10,7 +10,7 @@ import pytest
 
 from app.gui.autosave import Autosave
 from app.gui.lost import LOST
-from app.keeping import read
+from app.sessions.keeping import read
 
 pytestmark = [
     pytest.mark.window,

@@ -11,7 +11,7 @@ from app import asking
 from app.draw.picture import Diagram
 from app.gui.narration import ANSWER_HINT, WHERE_HINT
 from app.gui.presenter import noted
-from app.link import followed, link
+from app.sessions.link import followed, link
 from app.state import Stop, choose, drag, open_lesson, stops, turn_view
 from lessons.turn import Turn
 

@@ -182,7 +182,7 @@ def test_from_the_dialog_the_report_is_copied_unfolded_and_the_session_saved(
     faults.dialog.details.head.click()
     assert faults.dialog.text.isVisible()
     assert faults.dialog.text.toPlainText() == faults.dialog.report
-    monkeypatch.setattr("app.keeping.restored", lambda *_: fail())
+    monkeypatch.setattr("app.sessions.keeping.restored", lambda *_: fail())
     faults.dialog.save.click()
     monkeypatch.undo()
     assert window.document.path == tmp_path / "saved.subdivision"

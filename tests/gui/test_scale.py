@@ -8,13 +8,14 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel
 
 import lessons
-from app import bench, keeping
 from app.cli import main
 from app.export.wish import Wish
 from app.gui.application import settings_scale
 from app.gui.export import arguments
 from app.gui.keys import BY_ID, spelled_keys
 from app.gui.look import SCALES
+from app.laboratory import bench
+from app.sessions import keeping
 from app.state import Options, last, start, toggle
 
 pytestmark = pytest.mark.window

@@ -9,7 +9,7 @@ import pytest
 
 from app.draw.picture import Camera
 from app.draw.turned import turned
-from app.lab import COMFORT, Lab, Rule, affordable, lab_of, lesson_of
+from app.laboratory.lab import COMFORT, Lab, Rule, affordable, lab_of, lesson_of
 from lessons.turn import REST
 from subdivision import Grid, Mesh, shapes
 from subdivision.schemes import QUAD_CENTROID, TRIANGLE_CENTROID

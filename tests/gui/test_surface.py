@@ -5,11 +5,11 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
-from app import bench
 from app import state as st
 from app.draw import basis
 from app.draw.surface import SHOWS
 from app.gui.surface import SWITCHES
+from app.laboratory import bench
 
 pytestmark = pytest.mark.window
 

@@ -23,10 +23,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app import bench
 from app.draw.picture import Scene
 from app.gui.keys import COMMANDS
 from app.gui.window import Window
+from app.laboratory import bench
 from app.state import tick
 from tests.hostile.corpus import corpus, sound
 

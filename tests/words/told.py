@@ -5,12 +5,12 @@ from collections.abc import Iterable, Iterator
 from itertools import product
 
 import lessons
-from app.boxlab import PRESETS
 from app.draw.surface import SHOWS
 from app.draw.theme import NAMES, THEMES
 from app.export.wish import FORMATS
 from app.figures import BACKGROUNDS
-from app.lab import SENTENCES, titled
+from app.laboratory.boxlab import PRESETS
+from app.laboratory.lab import SENTENCES, titled
 from lessons.script import Beat, Lesson, View
 from subdivision import Boundary, Grid, Mesh, Topology, shapes
 from subdivision.catalogue import FAMILIES, scheme
@@ -77,8 +77,8 @@ def of_tables() -> Iterator[Text]:
         ("app/draw/theme.py", ("yellow", "System", *(name.capitalize() for name in THEMES))),
         ("app/draw/surface.py", SHOWS.values()),
         ("app/figures.py", (name.capitalize() for name in BACKGROUNDS)),
-        ("app/boxlab.py", PRESETS),
-        ("app/lab.py", (*SENTENCES.values(), *(titled(name) for name in shapes.SHAPES))),
+        ("app/laboratory/boxlab.py", PRESETS),
+        ("app/laboratory/lab.py", (*SENTENCES.values(), *(titled(name) for name in shapes.SHAPES))),
         ("subdivision/topology.py", (boundary.value.replace("-", " ") for boundary in Boundary)),
         ("subdivision/catalogue.py", _of_schemes()),
     ):
