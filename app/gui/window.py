@@ -95,6 +95,7 @@ class Window(QMainWindow):
         self.session, self.settings = session, settings
         self._scale, self._wide = session.state.options.scale, {name: float(wide) for name, wide in WIDE.items()}
         rescale(self._scale)
+        dress(QApplication.instance(), THEMES[session.state.options.theme])  # type: ignore[arg-type]
         self.document = Document(session, settings)
         self._entitle()
         self.setAcceptDrops(True)

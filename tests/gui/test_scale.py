@@ -14,6 +14,7 @@ from app.gui.application import settings_scale
 from app.gui.export import arguments
 from app.gui.keys import BY_ID, spelled_keys
 from app.gui.look import SCALES
+from app.gui.session import Session
 from app.laboratory import bench
 from app.sessions import keeping
 from app.state import Options, last, start, toggle
@@ -65,6 +66,18 @@ def test_larger_and_as_usual_by_the_keys(window):
         assert window.session.state.options.scale == end
     assert spelled_keys(BY_ID["larger"]) == ("Ctrl++", "Ctrl+=")
     assert spelled_keys(BY_ID["smaller"]) == ("Ctrl+−",)
+
+
+def test_a_window_that_begins_large_is_as_one_that_became_so(qtbot, window, lesson, settings):
+    def type_of(w):
+        return [each.font().pixelSize() for each in (w.menuBar(), w.banner.words, w.presenter.again, w.timeline)]
+
+    window.choose_scale(1.5)
+    assert type_of(window) == [21] * 4
+    window.choose_scale(1.0)
+    began = type(window)(Session(start(lesson, Options(scale=1.5))), settings)
+    qtbot.addWidget(began)
+    assert type_of(began) == [21] * 4
 
 
 def test_twice_the_scale_is_twice_the_size(window):
