@@ -75,6 +75,7 @@ def test_a_window_that_begins_large_is_as_one_that_became_so(qtbot, window, less
     window.choose_scale(1.5)
     assert type_of(window) == [21] * 4
     window.choose_scale(1.0)
+    QApplication.instance().setStyleSheet("")  # as where no window has been before
     began = type(window)(Session(start(lesson, Options(scale=1.5))), settings)
     qtbot.addWidget(began)
     assert type_of(began) == [21] * 4
