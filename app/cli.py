@@ -140,7 +140,7 @@ def open_window(options: argparse.Namespace) -> int:
         return _open(*found, options)
     if options.set and not options.lesson:
         raise Fault("--set turns a knob of a lesson: name the lesson before it, such as 1 --set degree=5")
-    (chosen,) = _turned([_lesson(options.lesson)], dict(options.set)) if options.lesson else (None,)
+    (chosen,) = _turned([_to_open(options)], dict(options.set)) if options.lesson else (None,)
     from app.gui.application import run
 
     return run(
@@ -152,6 +152,23 @@ def open_window(options: argparse.Namespace) -> int:
         is_trusted=options.trust,
         language=options.language or "",
     )
+
+
+def _to_open(options: argparse.Namespace) -> Lesson:
+    """The lesson that is named; one of a folder that was not agreed to is not there yet."""
+    try:
+        return _lesson(options.lesson)
+    except Fault:
+        if options.own is None or options.trust:
+            raise
+        raise Fault(
+            phrase(
+                "there is no lesson '{name}' that may run; if it is one of those in {folder}, leave its name out, "
+                "agree to the folder in the window, and name it the next time; or add --trust",
+                name=options.lesson,
+                folder=options.own,
+            )
+        ) from None
 
 
 def _open(opening: Callable[[State], State], path: Path | None, options: argparse.Namespace) -> int:

@@ -93,6 +93,11 @@ class View:
     framed: Trace | None = None
     veiled: bool = False
 
+    def __post_init__(self) -> None:
+        for at in (self.start, self.stop):
+            if not isinstance(at, int | float | np.number):
+                raise TypeError(f"a view runs from a number of stages to another, such as View(told, 0, 3), not {at!r}")
+
     def at(self, progress: float) -> float:
         """The stage position at ``progress`` (0..1) through the beat."""
         return self.start + progress * (self.stop - self.start)

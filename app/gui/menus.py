@@ -43,7 +43,7 @@ def fill(window: "Window") -> None:
         "@Speed": _speeds, "@Lessons": _lessons,
     }  # fmt: skip
     for name, ids in MENUS:
-        menu = window.menuBar().addMenu(tr(name))
+        menu = window.menuBar().addMenu("&" + tr(name))  # Alt and its first letter open it
         for id_ in ids:
             if not id_:
                 menu.addSeparator()

@@ -120,7 +120,7 @@ def test_the_language_changes_while_the_window_stands(window):
     titles = [action.text() for action in window.menuBar().actions()]
     window.actions_by_id["language_de"].trigger()
     assert window.viewport is viewport
-    assert [action.text() for action in window.menuBar().actions()][:2] == ["Datei", "Bearbeiten"]
+    assert [action.text() for action in window.menuBar().actions()][:2] == ["&Datei", "&Bearbeiten"]
     assert window.actions_by_id["forward"].text() == "Nächste Phase"
     assert [entry.text for entry in viewport.picture().legend] == ["ursprünglich"]
     assert window.settings.value("language") == "de"
