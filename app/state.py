@@ -491,8 +491,17 @@ def turn_view(state: State, turn: Turn) -> State:
 
 def is_turned_only(before: State, after: State) -> bool:
     """Whether two states differ in nothing but from where they are seen."""
-    others = (each.name for each in fields(State) if each.name != "turn")
-    return before.turn != after.turn and all(getattr(before, name) == getattr(after, name) for name in others)
+    return _differ_only_in("turn", before, after)
+
+
+def is_dragged_only(before: State, after: State) -> bool:
+    """Whether two states differ in nothing but in where control points are."""
+    return _differ_only_in("edits", before, after)
+
+
+def _differ_only_in(part: str, before: State, after: State) -> bool:
+    differing = [each.name for each in fields(State) if getattr(before, each.name) != getattr(after, each.name)]
+    return differing == [part]
 
 
 def drag(state: State, vertex: int, to: tuple[float, float, float]) -> State:

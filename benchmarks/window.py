@@ -86,7 +86,8 @@ class Pair:
 
     def until_drawn(self, wish: Callable[[], object]) -> float:
         """Seconds of the processor from a wish until its picture is on the screen: other programs take none of them."""
-        self.window.viewport._calm.stop()  # or it is smoothed while the empty one is looked at
+        for pause in (self.window.viewport._calm, self.window.viewport._still):
+            pause.stop()  # or it is smoothed, or drawn in full, while the empty one is looked at
         self.app.processEvents()
         drawn, end, start = self.drawn, time.perf_counter() + 5, time.process_time()
         wish()

@@ -5,12 +5,13 @@ import pytest
 from scipy import ndimage
 
 import lessons
-from app.draw.compose import compose
+from app.draw.compose import compose, is_heavy
 from app.draw.geometry import facets, normals
 from app.draw.isophotes import LIGHT, STEP, isophotes
 from app.draw.picture import Faces, Picture
 from app.draw.raster import image
 from app.draw.solid import CUBE
+from app.draw.surface import BRISK
 from app.draw.theme import THEMES
 from app.state import Options, at_stop, start, stops
 from lessons.script import Lesson
@@ -50,6 +51,21 @@ def test_the_last_picture_shows_the_three_panels_of_the_caption(number: str):
 def test_a_fan_is_well_told_at_every_valence(number: str, valence: int):
     lesson: Lesson = lessons.find(number).turned(valence=valence)
     assert [beat.text for beat in lesson.beats if not beat.claim or len(beat.text) > 130] == []
+
+
+def test_in_haste_a_coarser_level_stands_for_a_dense_one_with_the_strokes_and_markers_of_that():
+    lesson = lessons.find("9")
+    states = [at_stop(start(lesson, Options(control=True)), stop) for stop in stops(lesson)]
+    state = next(each for each in states if is_heavy(each))
+    fine, coarse = compose(state).scenes[-1], compose(state, is_hasty=True).scenes[-1]
+    assert len(coarse.faces[0].sizes) <= BRISK < len(fine.faces[0].sizes)
+    assert coarse.camera == fine.camera
+    assert [lines.width for lines in coarse.lines] == pytest.approx([lines.width for lines in fine.lines])
+    assert [m.name for m in coarse.markers] == [m.name for m in fine.markers]
+    for ours, theirs in zip(coarse.markers, fine.markers, strict=True):
+        assert ours.radius == pytest.approx(theirs.radius, rel=0.1)
+    rested = next(each for each in states if not is_heavy(each))
+    assert len(compose(rested, is_hasty=True).scenes[0].lines[0].pairs) == len(compose(rested).scenes[0].lines[0].pairs)
 
 
 def test_a_dense_level_draws_its_outline_and_no_net():

@@ -44,16 +44,25 @@ PYRAMID, ARRAY = 1.8, 1.4
 """How wide the diagrams of polygons and nets are beside a scene, relative to it."""
 
 
-def compose(state: State) -> Picture:
-    """The picture of a state, in its language."""
+def compose(state: State, *, is_hasty: bool = False) -> Picture:
+    """The picture of a state, in its language; in haste with coarser surfaces, for as long as the hand moves."""
     with speaking(state.options.language):
-        return translated(_composed(state))
+        return translated(_composed(state, is_hasty=is_hasty))
 
 
-def _composed(state: State) -> Picture:
+def is_heavy(state: State) -> bool:
+    """Whether a picture made in haste is another one."""
+    traces = ((state.trace(view), view.at(state.progress)) for view in state.now.views if view.kind is Kind.SCENE)
+    return any(surface.coarser(trace, at) < at for trace, at in traces)
+
+
+def _composed(state: State, *, is_hasty: bool) -> Picture:
     theme, beat = dressed(state), state.now
     rects = _rects(beat)
-    found = [_content(state, view, theme, rect[2] * rect[3]) for view, rect in zip(beat.views, rects, strict=True)]
+    found = [
+        _content(state, view, theme, rect[2] * rect[3], is_hasty=is_hasty)
+        for view, rect in zip(beat.views, rects, strict=True)
+    ]
     contents = surface.painted([content for content, _ in found], [values for _, values in found], theme)
     panes = tuple(
         Pane(content, rect, view.title, _measured(state, view), _frame(state, k, theme))
@@ -193,7 +202,9 @@ def shown_mesh(state: State, view: View) -> Mesh:
     return Mesh(frame.topology, frame.points[: frame.topology.n_vertices])
 
 
-def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scene | Diagram, surface.Values | None]:
+def _content(
+    state: State, view: View, theme: Theme, share: float, *, is_hasty: bool = False
+) -> tuple[Scene | Diagram, surface.Values | None]:
     """What a pane shows that has a ``share`` of the picture, and the values that its colours will stand for."""
     trace, at, row = state.trace(view), view.at(state.progress), pointed(state, view)
     if view.kind is Kind.DIAGRAM:
@@ -202,7 +213,7 @@ def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scen
         words = asked.veiled(state, view.stencil) if view.veiled else None
         return stencils.stencil(trace, Pointed(view.stencil, int(view.stop), view.span), theme, words), None
     # of the trace as the lesson has it: dragging a point moves no camera
-    what = surface.shown(state, view)
+    what = surface.shown(state, view, is_hasty=is_hasty)
     is_as_told = what.framed is (view.framed or view.trace)
     seen = _seen(what.framed, what.look, view if is_as_told else None)
     over = shown_mesh(state, view.over) if view.over is not None and is_as_told else None
@@ -210,7 +221,7 @@ def _content(state: State, view: View, theme: Theme, share: float) -> tuple[Scen
     options = replace(state.options, net=False) if is_striped and trace.control.topology.n_faces else state.options
     row = row if is_as_told or row is None or row.place is None else None
     frame = surface.frame_of(what)
-    made = scene(frame, what.trace, seen, options, theme, row, view.marks, over, share)
+    made = scene(frame, what.trace, seen, options, theme, row, view.marks, over, share, what.stands_for)
     if state.picked is not None and is_pickable(state, view):
         made = selected(made, what.trace.control, state.picked, theme, is_control=what.at == 0)
     if is_as_told:

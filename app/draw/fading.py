@@ -15,11 +15,11 @@ from app.state import State
 Drawn = TypeVar("Drawn", Faces, Lines, Markers, Label, Box, Link, Note)
 
 
-def faded(state: State) -> Picture:
-    """The picture of a state; with reduced motion, between two stages, both their pictures."""
+def faded(state: State, *, is_hasty: bool = False) -> Picture:
+    """The picture of a state, ``is_hasty`` as in ``compose``; with reduced motion, between two stages, both theirs."""
     low, high = float(floor(state.at)), float(ceil(state.at))
     if not state.options.reduced_motion or low == high:
-        return compose(state)
+        return compose(state, is_hasty=is_hasty)
     before, after = compose(replace(state, at=low)), compose(replace(state, at=high))
     return crossed(before, after, eased(state.at - low))
 

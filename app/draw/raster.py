@@ -95,6 +95,7 @@ class _Studio:
         self._painter.renderer.SetBackgroundAlpha(0.0 if transparent else 1.0)
         self._painter.look(fitted(scene.camera, (0.0, 0.0, *size)))
         self._painter.paint(scene, height)
+        self._painter.clip(scene)
         self._window.Render()
         pixels = self._grabbed(size)
         if transparent:

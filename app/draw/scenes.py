@@ -79,16 +79,19 @@ def scene(
     marks: tuple[tuple[int, str], ...] = (),
     over: Mesh | None = None,
     share: float = 1.0,
+    stands_for: Connectivity | None = None,
 ) -> Scene:
     """One instant of a trace in space, ``seen`` by a camera; ``over`` is laid over it in dashes.
 
-    ``share`` is the part of the picture that the pane has: on less room less is drawn.
+    ``share`` is the part of the picture that the pane has: on less room less is drawn.  A coarse level that
+    ``stands_for`` a finer one has strokes and markers of the sizes they have there.
     """
-    radius = _marker_radius(trace, frame, theme) * share**-0.1
+    fine = stands_for or frame.topology
+    radius = _marker_radius(trace, frame, theme, fine) * share**-0.1
     faint = _faint(frame.topology, len(frame.points))
     faint_before = _faint(frame.before.topology, len(frame.old_points))
     faces = _faces(frame, theme) if options.surface else ()
-    lines = (*_net(frame, theme, options, share), *_belonging(frame, theme, options))
+    lines = (*_net(frame, theme, options, share, fine), *_belonging(frame, theme, options))
     lines = (*lines, *(_ghost(frame, theme, options, share) if over is None else _laid_over(over, theme, share)))
     if options.ghost:
         lines = (*lines, *cues(frame, theme, faint, faint_before))
@@ -111,13 +114,15 @@ def _extent(trace: Trace) -> float:
     return float(np.linalg.norm(np.ptp(trace.control.points, axis=0))) / 2
 
 
-def _marker_radius(trace: Trace, frame: Frame, theme: Theme) -> float:
+def _marker_radius(trace: Trace, frame: Frame, theme: Theme, fine: Connectivity) -> float:
+    """Of an original point; the edges of what is ``fine`` are shorter than those of the frame, as they are more."""
     size = _extent(trace)
     ends = frame.topology.ends
     lengths = np.linalg.norm(frame.points[ends[:, 0]] - frame.points[ends[:, 1]], axis=1)
     apart = lengths[lengths > 1e-6 * max(size, 1e-9)]
     typical = float(np.median(apart)) if apart.size else size
-    fewer = (ROOM / max(frame.topology.n_vertices, ROOM)) ** (1 / 3)
+    typical *= (len(ends) / fine.n_edges) ** 0.5 if len(ends) else 1.0
+    fewer = (ROOM / max(fine.n_vertices, ROOM)) ** (1 / 3)
     return float(min(MARKER * size * fewer * theme.points, CROWDED * typical))
 
 
@@ -152,7 +157,7 @@ def _faces(frame: Frame, theme: Theme) -> tuple[Faces, ...]:
     return (Faces(frame.points[: t.n_vertices], sizes, corners, theme.surface),) if len(sizes) else ()
 
 
-def _net(frame: Frame, theme: Theme, options: Options, share: float) -> tuple[Lines, ...]:
+def _net(frame: Frame, theme: Theme, options: Options, share: float, fine: Connectivity) -> tuple[Lines, ...]:
     """The edges; those only hidden faces have are faint, those a stage brings grow in, sharp ones are heavy."""
     if not options.net:
         return ()
@@ -162,8 +167,8 @@ def _net(frame: Frame, theme: Theme, options: Options, share: float) -> tuple[Li
     new = frame.newborn[: t.n_vertices][ends].all(axis=1)
     sharp = _sharp(t)
     growth = float(frame.progress)
-    width = theme.stroke * _stroke(t, share)
-    strength = _strength(t, share)
+    width = theme.stroke * _stroke(fine, share)
+    strength = _strength(fine, share)
     inner = ~(faint | sharp | _outline(t))
     parts = [
         Lines(points, ends[faint], theme.faint, 0.7 * width),

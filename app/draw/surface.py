@@ -5,6 +5,7 @@ Values at vertices become colours on one scale for all panes, so that they can b
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import ceil
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from lessons.script import Look, View
 from subdivision import Frame, Mesh, TopologyError, Trace
 from subdivision.arrays import Floats, Indices
 from subdivision.curvature import gauss_curvature, mean_curvature, vertex_normals
+from subdivision.rows import Connectivity
 from subdivision.words import phrase
 
 SHOWS: Mapping[str, str] = {
@@ -34,6 +36,9 @@ STRIPED = ("isophotes", "reflections")
 
 CURVATURES = ("mean curvature", "gauss curvature")
 
+BRISK = 14_000
+"""Up to so many faces a surface follows the hand at once."""
+
 BAND = 2.4
 """Width of a line of light in logical points."""
 
@@ -49,7 +54,8 @@ class Shown:
     """A trace and a place in it; ``framed`` and ``look`` say what the camera sees.
 
     ``lifted`` is the control point whose basis function it is, -1: none; ``is_limit``: the last stage is the limit.
-    ``remark`` says why what was asked for is not there.
+    ``remark`` says why what was asked for is not there; ``stands_for`` is the connectivity of the level in whose place
+    a coarser one is shown.
     """
 
     trace: Trace
@@ -59,6 +65,7 @@ class Shown:
     lifted: int = -1
     is_limit: bool = False
     remark: str = ""
+    stands_for: Connectivity | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,17 +81,28 @@ class Values:
     is_signed: bool = False
 
 
-def shown(state: State, view: View) -> Shown:
-    """What a view shows, as the options say."""
-    found = Shown(state.trace(view), view.at(state.progress), view.framed or view.trace, view.look or state.now.look)
+def shown(state: State, view: View, *, is_hasty: bool = False) -> Shown:
+    """What a view shows, as the options say; in haste a coarser level of what has many faces."""
+    trace, at = state.trace(view), view.at(state.progress)
+    found = Shown(trace, at, view.framed or view.trace, view.look or state.now.look)
+    if is_hasty and (coarse := coarser(trace, at)) < at:
+        found = replace(found, at=coarse, stands_for=trace.topology_at(ceil(at)))
     if state.options.basis:
         found = _lifted(state, view, found)
     if state.options.limit and found.trace.stages:
-        trace, refusal = limits.limit_or_refusal(found.trace, found.at)
-        if trace is not None:
-            return replace(found, trace=trace, at=float(len(trace.stages)), is_limit=True)
+        limit, refusal = limits.limit_or_refusal(found.trace, found.at)
+        if limit is not None:
+            return replace(found, trace=limit, at=float(len(limit.stages)), is_limit=True)
         found = replace(found, remark=" ".join(filter(None, (found.remark, refusal))))
     return found
+
+
+def coarser(trace: Trace, at: float) -> float:
+    """The last place up to ``at`` where a level is whole and brisk, else the first one; ``at`` where all is brisk."""
+    if trace.topology_at(ceil(at)).n_faces <= BRISK:
+        return at
+    whole = [k for k in range(1, int(at) + 1) if limits.is_whole(trace, k)]
+    return float(max((k for k in whole if trace.topology_at(k).n_faces <= BRISK), default=min(whole, default=at)))
 
 
 def _lifted(state: State, view: View, plain: Shown) -> Shown:

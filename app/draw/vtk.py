@@ -61,7 +61,6 @@ class ScenePainter:
             strokes.show(dashes(lines, dash_of(scene.camera)) if lines.dashed else lines, lines.width * point)
         for (shape, solid), glyphs in self._markers.items():
             glyphs.show([m for m in scene.markers if m.shape is shape], solid=solid)
-        self.clip(scene)
 
     def look(self, camera: Camera, window: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> None:
         """Stand where ``camera`` stands.
@@ -86,8 +85,8 @@ class ScenePainter:
         points = [p.points for group in (scene.faces, scene.lines, scene.markers) for p in group if len(p.points)]
         if points:
             margin = 2.5 * max((float(m.radius.max()) for m in scene.markers if len(m.radius)), default=0.0)
-            low = np.min([p.min(axis=0) for p in points], axis=0) - margin
-            high = np.max([p.max(axis=0) for p in points], axis=0) + margin
+            low = [min(float(p[:, k].min()) for p in points) - margin for k in range(3)]
+            high = [max(float(p[:, k].max()) for p in points) + margin for k in range(3)]
             for renderer in (self.renderer, self._over):
                 renderer.ResetCameraClippingRange(low[0], high[0], low[1], high[1], low[2], high[2])
             camera = self.renderer.GetActiveCamera()

@@ -29,6 +29,7 @@ class Spectrum(QWidget):
     def __init__(self, session: Session, wish: Callable[..., None]) -> None:
         super().__init__()
         self._session, self._wish = session, wish
+        self._asked: tuple[Rule, int, Theme] | None = None
         self.valence = Stepper("valence", lambda by: session.do(turn_valence, by))
         self.words, self.way = _label(), _label()
         self.slider = PullSlider(lambda: session.state.options.theme, self._pull, session.let_go)
@@ -57,10 +58,9 @@ class Spectrum(QWidget):
             return
         n, rule, theme = valence_of(state), state.lab.rules[0], THEMES[state.options.theme]
         self.valence.show_value(str(n), is_least=n == VALENCES.start, is_most=n == VALENCES.stop - 1)
-        try:
-            self.words.setText(said(analysis(rule.scheme, n), theme))
-        except TopologyError as refusal:
-            self.words.setText(f'<span style="color:{colour(theme.muted).name()}">{escape(tr(str(refusal)))}</span>')
+        if (asked := (rule, n, theme)) != self._asked:
+            self._asked = asked
+            self.words.setText(_words(rule, n, theme))
         is_varied = rule.family in PULL_RULES
         self.vary.setVisible(not is_varied and pull_rule(rule.scheme) is not None)
         self.slider.setVisible(is_varied)
@@ -82,6 +82,14 @@ class Spectrum(QWidget):
 
     def _pull(self, way: Fraction) -> None:
         self._wish(bench.pull, way)
+
+
+def _words(rule: Rule, n: int, theme: Theme) -> str:
+    """What is said of a rule at a valence, or why nothing can be."""
+    try:
+        return said(analysis(rule.scheme, n), theme)
+    except TopologyError as refusal:
+        return f'<span style="color:{colour(theme.muted).name()}">{escape(tr(str(refusal)))}</span>'
 
 
 def said(found: Analysis, theme: Theme) -> str:

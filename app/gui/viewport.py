@@ -12,6 +12,7 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QWidget
 
 from app.asking import is_open, predict
+from app.draw.compose import is_heavy
 from app.draw.fading import faded
 from app.draw.layout import fitted, overlay, pane_areas, part_at
 from app.draw.picture import Box, Camera, Picture, Scene
@@ -30,7 +31,7 @@ from app.gui.predicting import predicted
 from app.gui.session import Session
 from app.laboratory import bench
 from app.laboratory.editing import extended
-from app.state import Picked, Spot, State, drag, is_turned_only, look, pick, put_back, turn_view
+from app.state import Picked, Spot, State, drag, is_dragged_only, is_turned_only, look, pick, put_back, turn_view
 from app.words import tr
 from lessons.turn import REST, Turn
 
@@ -39,6 +40,9 @@ PANES = 6
 
 CALM = 160
 """Milliseconds without change after which a software-drawn picture is smoothed."""
+
+STILL = 100
+"""Milliseconds without a move after which a surface too heavy to follow the hand is drawn in full."""
 
 PAUSE = 500
 """Milliseconds without the wheel after which zooming on is another change."""
@@ -70,11 +74,13 @@ class Viewport(QWidget):
         self._is_soft = True
         self._empty = QOpenGLWidget(self)  # makes the window one for OpenGL from the start, so that it never flickers
         self._flat = Flat(self, self._draw)
-        self._is_stale = False
+        self._is_stale = self._is_hasty = False
         self.narration = Narration(session, self)
         self.pointer = Pointer(self)
         self._calm = QTimer(self, singleShot=True, interval=CALM)
         self._calm.timeout.connect(self._smooth)
+        self._still = QTimer(self, singleShot=True, interval=STILL)
+        self._still.timeout.connect(self._show_in_full)
         self._pause = QTimer(self, singleShot=True, interval=PAUSE)
         self._pause.timeout.connect(session.let_go)
         self._pull = QTimer(self, singleShot=True, interval=0)  # one move a picture, however many the mouse sends
@@ -106,6 +112,7 @@ class Viewport(QWidget):
     def close_vtk(self) -> None:
         """Give everything back, in the order VTK needs."""
         self._calm.stop()
+        self._still.stop()
         if self._plotter is not None:
             self._plotter.removeEventFilter(self)
             for each in self._painters:
@@ -124,10 +131,24 @@ class Viewport(QWidget):
             return
         if state.focus is None:
             self._is_pinned = False
-        self._picture = faded(state)
+        self._compose(is_hasty=is_dragged_only(before, state) and is_heavy(state))
         self.narration.show_state(state)
         self._arrange()
         self._paint_scenes()
+
+    def _compose(self, *, is_hasty: bool) -> None:
+        """The picture of the state; one made in haste lasts until the hand rests."""
+        self._picture, self._is_hasty = faded(self._state, is_hasty=is_hasty), is_hasty
+        if is_hasty:
+            self._still.start()
+        else:
+            self._still.stop()
+
+    def _show_in_full(self) -> None:
+        """The hand rests."""
+        if self._is_hasty:
+            self._compose(is_hasty=False)
+            self._paint_scenes()
 
     def reset_camera(self) -> None:
         """Stand where the lesson stands."""
@@ -350,6 +371,7 @@ class Viewport(QWidget):
             self._pulled()
         if self._is_drag:
             self._session.let_go()
+            self._show_in_full()
         self._press, self._is_drag, self._grip = None, False, None
         self._calm.start()
 
@@ -410,7 +432,7 @@ class Viewport(QWidget):
     def spot_at(self, at: QPointF) -> Spot | None:
         """The point that is meant by a place on the screen: the nearest in space, in front first; a box, or a disc."""
         state = self._state
-        if state.is_playing or is_open(state):
+        if state.is_playing or is_open(state) or self._is_hasty:
             return None
         if found := part_at(self._picture, self.width(), self._tall(), at.x(), at.y(), words=False):
             k, part = found

@@ -112,3 +112,15 @@ def test_the_panel_is_no_wider_than_its_column(window):
     window.resize(1280, 720)
     assert window.surface.minimumSizeHint().width() <= 160
     assert window.surface.shows.box.accessibleName() == "Surface shows"
+
+
+def test_a_heavy_surface_follows_the_hand_coarsely_and_is_whole_at_rest(net, qtbot):
+    net.session.do(bench.set_levels, 6)
+    net.session.do(st.last)
+    before = picture(net).faces[0]
+    net.session.do(st.drag, 5, (2.5, 1.0, 1.0))
+    assert len(picture(net).faces[0].sizes) < len(before.sizes)
+    assert net.viewport.spot_at(net.viewport.rect().center()) is None
+    qtbot.waitUntil(lambda: len(picture(net).faces[0].sizes) == len(before.sizes), timeout=5000)
+    assert np.array_equal(picture(net).faces[0].corners, before.corners)
+    assert not np.array_equal(picture(net).faces[0].points, before.points)
