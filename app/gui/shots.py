@@ -7,7 +7,7 @@ from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from PySide6.QtCore import QBuffer, QSettings
+from PySide6.QtCore import QBuffer, QEventLoop, QSettings, QTimer
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
@@ -24,8 +24,8 @@ from app.state import Spot, State, choose, first, last, look, onward, open_lesso
 from lessons.questions import Where
 
 SIZE = 1280, 720
-SETTLED = 700
-"""Milliseconds in which a picture comes to rest."""
+SETTLED = 2000
+"""Milliseconds in which a picture comes to rest, and what is drawn in another thread is there."""
 
 
 @dataclass(frozen=True)
@@ -54,13 +54,19 @@ def draw(folder: Path) -> Iterator[Path]:
             window.session.do(open_lesson, lessons.find(shot.lesson))
             window.session.do(first)
             target = shot.does(window) or window
-            QTest.qWait(SETTLED)
+            _wait(SETTLED)
             path = folder / f"{shot.name}.png"
             path.write_bytes(few_colours(Image.open(BytesIO(grabbed(target))).convert("RGB")))
             if target is not window:
                 target.close()
             yield path
         window.close()
+
+
+def _wait(milliseconds: int) -> None:
+    loop = QEventLoop()
+    QTimer.singleShot(milliseconds, loop.quit)
+    loop.exec()
 
 
 def grabbed(widget: QWidget) -> bytes:
