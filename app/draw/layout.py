@@ -13,8 +13,8 @@ from math import hypot
 import numpy as np
 
 from app.draw import bars, dotted, pins
-from app.draw.labels import placed
-from app.draw.picture import Box, Camera, Diagram, Dot, Entry, Link, Note, Pane, Picture
+from app.draw.labels import Kept, placed
+from app.draw.picture import Box, Camera, Diagram, Dot, Entry, Link, Note, Pane, Picture, Scene
 from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, wrapped
 
@@ -77,11 +77,12 @@ def overlay(
     height: float,
     cameras: Sequence[Camera | None] | None = None,
     words: bool = True,
+    kept: Kept | None = None,
 ) -> tuple[Primitive, ...]:
     """Everything flat on a picture of ``width`` by ``height`` pixels.
 
     ``cameras``, one for each pane, are those the user has turned; None: as the picture says.
-    ``words`` includes the caption and its formula.
+    ``words`` includes the caption and its formula.  Labels stay beside their points where they are ``kept``.
     """
     picture = _readable(picture, width, height, words)
     found: list[Primitive] = []
@@ -96,7 +97,7 @@ def overlay(
         else:
             seen = camera or fitted(pane.content.camera, area)
             found.extend(pins.drawn(pane.content, seen, area, picture, height))
-            found.extend(placed(pane.content, seen, area, height, picture))
+            found.extend(placed(pane.content, seen, area, height, picture, kept))
             found.extend(bars.drawn(pane.content, seen, area, picture, height))
         found.extend(_framed(pane, area, picture, height))
         found.extend(_pane_title(pane, area, picture, height))
@@ -111,9 +112,11 @@ def pane_areas(picture: Picture, width: float, height: float, words: bool = True
     above, below = _title_room(picture, height), _reading_room(picture, height)
     tall, gutter = around.bottom - around.top, GUTTER * height / 1000
     areas = []
-    for x, y, w, h in (p.rect for p in picture.panes):
-        left = round(x * width + (gutter if x > 0 else 0))
-        right = round((x + w) * width - (gutter if x + w < 1 - EDGE else 0))
+    for pane in picture.panes:
+        x, y, w, h = pane.rect
+        apart = gutter if isinstance(pane.content, Scene) else 0.0
+        left = round(x * width + (apart if x > 0 else 0))
+        right = round((x + w) * width - (apart if x + w < 1 - EDGE else 0))
         top, bottom = round(around.top + y * tall + above), round(around.top + (y + h) * tall - below)
         areas.append((float(left), float(top), float(max(right - left, 1)), float(max(bottom - top, 1))))
     return areas

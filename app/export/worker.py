@@ -19,6 +19,9 @@ HEAD = "progress "
 """How a line begins that tells of progress: the rest is JSON, how much is done and of what."""
 
 
+_unheard = threading.Event()
+
+
 def reported(state: State, wish: Wish, out: Path) -> list[Path]:
     """Export, and tell of progress in lines of output; the end of the input stops it and leaves nothing behind."""
     threading.Thread(target=_listen, daemon=True).start()
@@ -32,10 +35,13 @@ def _listen() -> None:
     """Wait until whoever started this closes the pipe, or is gone."""
     while os.read(sys.stdin.fileno(), 4096):
         pass
+    _unheard.set()
     _thread.interrupt_main()
 
 
 def _tell(done: float, name: str) -> None:
+    if _unheard.is_set():  # the interrupt itself may have come where it was lost: in a call from VTK
+        raise KeyboardInterrupt
     print(f"{HEAD}{json.dumps([round(done, 4), name])}", flush=True)
 
 

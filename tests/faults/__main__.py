@@ -10,6 +10,7 @@ import random
 import sys
 import tempfile
 import time
+from functools import cache
 from pathlib import Path
 
 from tests.faults.child import sound
@@ -33,7 +34,7 @@ def main() -> int:
     random.seed(options.seed)
     for name in LOADED:
         importlib.import_module(name)
-    sys.modules["app.draw.raster"]._studio = lambda: None  # pictures without OpenGL, which outlives no fork
+    sys.modules["app.draw.raster"]._studio = cache(lambda: None)  # pictures without OpenGL, which outlives no fork
     begin, wrong, trials = time.perf_counter(), [], 0
     for verdict in _verdicts(options.times, options.only or ["autosave", *KINDS]):
         print(verdict, flush=True)
