@@ -12,7 +12,7 @@ from app.draw import raster
 from app.draw.compose import compose
 from app.draw.depth import depth_of
 from app.draw.geometry import dashes, facets, normals
-from app.draw.labels import placed
+from app.draw.labels import Kept, placed
 from app.draw.layout import extent, fitted, overlay, pane_areas
 from app.draw.picture import Box, Camera, Diagram, Faces, Label, Lines, Markers, Pane, Picture, Scene, Shape
 from app.draw.primitives import LEAST, Mark, Plate, Text
@@ -181,6 +181,27 @@ def test_labels_hide_no_marker_and_no_other_label(size):
         for left, top, w, h in boxes:
             near = np.clip(x, left, left + w), np.clip(y, top, top + h)
             assert np.hypot(near[0] - x, near[1] - y) >= r - 0.5
+
+
+def test_kept_labels_go_along_with_their_points_and_new_ones_are_placed():
+    points = np.random.default_rng(5).uniform(-0.8, 0.8, (40, 3)) * [1, 1, 0]
+    area = (0.0, 0.0, 1000.0, 1000.0)
+
+    def shown(by: float, kept: Kept, n: int = 40) -> dict[str, tuple[float, float]]:
+        moved = points[:n] + np.array([by, 0, 0])
+        labels = tuple(Label(p, f"v{k}", BLACK) for k, p in enumerate(moved))
+        scene = Scene(AHEAD, markers=(markers(moved, radius=0.03),), labels=labels)
+        return {t.text: (t.x, t.y) for t in placed(scene, AHEAD, area, 1000, of(scene), kept) if isinstance(t, Text)}
+
+    kept = Kept()
+    before, after = shown(0.0, kept), shown(0.05, kept)
+    right = AHEAD.project(np.array([[0.05, 0, 0], [0, 0, 0]]), 1000, 1000)
+    assert {name: (x + right[0, 0] - right[1, 0], y) for name, (x, y) in before.items()} == {
+        name: pytest.approx(at) for name, at in after.items()
+    }
+    kept = Kept()
+    assert set(shown(0.0, kept, 20)) < set(shown(0.0, kept)) == set(before)
+    assert shown(0.0, kept) == before
 
 
 def test_a_label_of_a_point_out_of_sight_is_left_out():

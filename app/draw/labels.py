@@ -4,7 +4,7 @@ Each label takes the nearest free place round its point, first where it would li
 must go further is tied to its point by a thin line.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import TypeAlias
 
@@ -39,34 +39,86 @@ REACH = {Shape.SPHERE: 1.0, Shape.DIAMOND: 1.28, Shape.CUBE: 1.2, Shape.BEAD: 1.
 
 Point: TypeAlias = tuple[float, float]
 
+Name: TypeAlias = tuple[Area, int, str]
+"""A label's pane, number and words."""
+
+Named: TypeAlias = tuple[Name, Label, Point]
+"""A label, and where its point is on the picture."""
+
 FEW = 400
 """Up to so many strokes, labels try to keep off them."""
 
 
-def placed(scene: Scene, camera: Camera, area: Area, height: float, picture: Picture) -> list[Primitive]:
-    """The labels of a scene in its pane, the largest placed first; enlarged as far as none then covers another."""
-    found: list[Primitive] = []
-    for growth in dict.fromkeys((picture.growth, picture.growth**0.5, 1.0)) if scene.labels else ():
-        smaller = replace(picture, scale=picture.scale * growth / picture.growth, growth=growth)
-        found, is_clear = _placed(scene, camera, area, height, smaller)
-        if is_clear:
-            break
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """Where labels stand beside their points, filled as they are placed: given again, they go along with these.
+
+    ``beside`` tells how far right and down a label is, and how far off in heights; ``growth`` how much the labels of
+    a pane are enlarged.
+    """
+
+    beside: dict[Name, tuple[Point, float]] = field(default_factory=dict)
+    growth: dict[Area, float] = field(default_factory=dict)
+
+
+def placed(
+    scene: Scene, camera: Camera, area: Area, height: float, picture: Picture, kept: Kept | None = None
+) -> list[Primitive]:
+    """The labels of a scene in its pane, the largest placed first; enlarged as far as none then covers another.
+
+    Where all of them are ``kept`` they go along with their points.
+    """
+    if not scene.labels:
+        return []
+    kept = kept or Kept()
+    flat = _flat(np.stack([label.at for label in scene.labels]), camera, area)[:, :2]
+    is_in = ((flat >= area[:2]) & (flat <= np.add(area[:2], area[2:]))).all(axis=1)  # else turned or zoomed out of it
+    there = [
+        ((area, k, scene.labels[k].text), scene.labels[k], (float(flat[k, 0]), float(flat[k, 1])))
+        for k in map(int, np.flatnonzero(is_in))
+    ]
+    there.sort(key=lambda one: -one[1].size)
+    if area in kept.growth and all(name in kept.beside for name, _, _ in there):
+        found = _along(there, height, _grown(picture, kept.growth[area]), kept)
+    else:
+        for growth in dict.fromkeys((picture.growth, picture.growth**0.5, 1.0)):
+            kept.growth[area] = growth
+            found, is_clear = _placed(there, scene, camera, area, height, _grown(picture, growth), kept)
+            if is_clear:
+                break
     return sorted(found, key=lambda one: isinstance(one, Text))
 
 
-def _placed(scene: Scene, camera: Camera, area: Area, height: float, picture: Picture) -> tuple[list[Primitive], bool]:
+def _grown(picture: Picture, growth: float) -> Picture:
+    return replace(picture, scale=picture.scale * growth / picture.growth, growth=growth)
+
+
+def _along(there: list[Named], height: float, picture: Picture, kept: Kept) -> list[Primitive]:
+    """The labels where they are kept beside their points."""
+    unit = height / 1000
+    found: list[Primitive] = []
+    for name, label, (x, y) in there:
+        (right, below), off = kept.beside[name]
+        size = max(label.size * picture.scale, LEAST) * unit
+        wide, up, down = measure(label.text, size)
+        box = np.array([x + right, y + below, wide, up + down])
+        found.extend(_drawn(label, (x, y), size, box, off, picture, unit))
+    return found
+
+
+def _placed(
+    there: list[Named], scene: Scene, camera: Camera, area: Area, height: float, picture: Picture, kept: Kept
+) -> tuple[list[Primitive], bool]:
     """The labels at the size of the picture's type, and whether none lies over another."""
     unit = height / 1000
     discs, strokes = _discs(scene, camera, area), _samples(scene, camera, area)
     discs = np.vstack([discs, pins.discs(scene, camera, area, picture, height)])
     taken, is_clear = np.zeros((0, 4)), True
     found: list[Primitive] = []
-    for label in sorted(scene.labels, key=lambda one: -one.size):
-        x, y = map(float, _flat(label.at, camera, area)[0, :2])
-        if not (area[0] <= x <= area[0] + area[2] and area[1] <= y <= area[1] + area[3]):
-            continue  # the user has turned or zoomed its point out of the pane
+    for name, label, (x, y) in there:
         size = max(label.size * picture.scale, LEAST) * unit
         box, off = _best(label, (x, y), size, unit, area, discs, strokes, taken)
+        kept.beside[name] = (float(box[0]) - x, float(box[1]) - y), off
         is_clear = is_clear and not _overlaps(box[None], taken).any()
         taken = np.vstack([taken, box + np.array([-0.25, 0, 0.5, 0]) * box[3]])  # words side by side read as two
         found.extend(_drawn(label, (x, y), size, box, off, picture, unit))

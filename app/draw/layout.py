@@ -122,6 +122,7 @@ def pane_areas(picture: Picture, width: float, height: float, words: bool = True
     return areas
 
 
+@lru_cache(maxsize=64)
 def fitted(camera: Camera, area: Area) -> Camera:
     """The camera stepped back for a pane too narrow for it: what it must show stays visible."""
     back = max(1.0, camera.aspect * area[3] / area[2])

@@ -1,6 +1,7 @@
 """A camera as the hand has turned it."""
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from subdivision.arrays import Floats
 STEEPEST = np.radians(89.0)
 
 
+@lru_cache(maxsize=64)
 def turned(camera: Camera, turn: Turn) -> Camera:
     """The camera that sees what the hand wants to see; a parallel one does not rotate."""
     away, up = camera.position - camera.focal, camera.up

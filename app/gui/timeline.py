@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import (
     QColor,
     QFont,
@@ -40,6 +40,9 @@ SNAP = 6.0
 
 MARK = 7.5
 """Radius of a question's mark; pixels at 100 %."""
+
+HANDLE = 7
+"""Radius of the handle; pixels at 100 %."""
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 
@@ -96,13 +99,25 @@ class Track(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(tr("Timeline"))
         self._is_held = False
+        self._looks: tuple[object, ...] = ()
+        self._stands = 0.0
 
     def show_state(self, state: State) -> None:
         here = current(state)
         stage, caption = here.name or phrase("question" if is_open(state) else "still"), said(state, state.now)
         words = phrase("level {level}, {stage}: {caption}", level=here.level, stage=stage, caption=caption)
         self.setAccessibleDescription(tr(words))
-        self.update()
+        looks, stands = (state.lesson, here, state.options), axis_of(state)
+        if looks != self._looks:
+            self.update()
+        elif stands != self._stands:
+            self.update(self._round(self._stands) | self._round(stands))
+        self._looks, self._stands = looks, stands
+
+    def _round(self, axis: float) -> QRect:
+        """The pixels that the handle touches there."""
+        half = fine(HANDLE) + 3
+        return QRectF(self._x(axis) - half, 0, 2 * half, self.height()).toAlignedRect()
 
     # -- place and time -------------------------------------------------------------------------
 
@@ -157,9 +172,13 @@ class Track(QWidget):
         axis, middle = axis_of(state), self.height() / 2 + fine(1)
         parts, now = segments(state.lesson), current(state)
         idle, done = mixed(theme.panel, theme.ink, 0.22), theme.accent
-        taken = -1e9
+        taken, beside, where = -1e9, fine(30), event.rect()
         for s in parts:
             left, right = self._x(s.begin), self._x(s.end)
+            has_word = s.ends_level and right - taken > fine(26)
+            taken = right if has_word else taken
+            if s is not now and not where.left() - beside <= right <= where.right() + beside + right - left:
+                continue
             self._bar(painter, left, right, middle, colour(idle))
             if axis > s.begin:
                 self._bar(painter, left, min(right, self._x(axis)), middle, colour(done))
@@ -167,15 +186,14 @@ class Track(QWidget):
             painter.setPen(QPen(colour(theme.ink if s.ends_level else theme.muted), fine(1.6 if s.ends_level else 1)))
             painter.drawLine(QPointF(right, middle - tall), QPointF(right, middle + tall))
             self._name(painter, s, colour(theme.ink if s is now else theme.muted), is_now=s is now)
-            if s.ends_level and right - taken > fine(26):
+            if has_word:
                 self._word(painter, f"×{s.level}", right, middle + fine(11), colour(theme.ink))
-                taken = right
         for s in parts:
             if state.lesson.beats[s.beat].asks is not None:
                 self._question(painter, QPointF(self._x(s.end), middle), theme)
         painter.setPen(QPen(colour(theme.panel), fine(2)))
         painter.setBrush(colour(theme.ink))
-        painter.drawEllipse(QPointF(self._x(axis), middle), fine(7), fine(7))
+        painter.drawEllipse(QPointF(self._x(axis), middle), fine(HANDLE), fine(HANDLE))
         if self.hasFocus():
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(colour(theme.accent), fine(2)))

@@ -14,8 +14,9 @@ from PySide6.QtWidgets import QWidget
 from app.asking import is_open, predict
 from app.draw.compose import is_heavy
 from app.draw.fading import faded
+from app.draw.labels import Kept
 from app.draw.layout import fitted, overlay, pane_areas, part_at
-from app.draw.picture import Box, Camera, Picture, Scene
+from app.draw.picture import Box, Camera, Colour, Picture, Scene
 from app.draw.primitives import Area
 from app.draw.seen import from_there
 from app.draw.selected import is_pickable
@@ -64,6 +65,8 @@ class Viewport(QWidget):
         self._picture: Picture = faded(session.state)
         self._press: QPointF | None = None
         self._last = QPointF()
+        self._kept = Kept()
+        self._cleared: Colour | None = None
         self._is_drag = self._is_pinned = False
         self._grip: Grip | None = None
         self._axis: int | None = None
@@ -201,7 +204,9 @@ class Viewport(QWidget):
         self._redraw()
 
     def _paint_panes(self) -> None:
-        self._plotter.set_background(self._picture.background)
+        if self._cleared != self._picture.background:
+            self._cleared = self._picture.background
+            self._plotter.set_background(self._cleared)
         shown = self._shown()
         height = self._tall() * self.devicePixelRatioF() * (MAGNIFICATION if self.is_magnified else 1.0)
         for painter, (content, area, camera) in zip(self._painters, shown, strict=False):
@@ -251,7 +256,9 @@ class Viewport(QWidget):
                 self._draw_at(samples=0, is_hasty=True)
                 self._calm.start()
             self._is_stale = True
-        flat = overlay(self._picture, self.width(), self._tall(), cameras=self.cameras(), words=False)
+        is_between = self._state.is_playing and self._state.at != int(self._state.at)
+        self._kept = self._kept if is_between else Kept()
+        flat = overlay(self._picture, self.width(), self._tall(), cameras=self.cameras(), words=False, kept=self._kept)
         self._flat.lay(flat, self._lens, is_blank=self._state.options.blank)
 
     def _draw(self) -> None:
