@@ -54,20 +54,22 @@ function askedWords(asked) {
       return button;
     }));
   } else if (asked.isOpen) {
-    line.textContent = "Click in the picture where you think it goes.";
+    line.textContent = $("words").dataset.click;
   } else if (asked.isTold && asked.said !== undefined) {
     line.textContent = verdict(question, asked.said);
   }
   return line.hasChildNodes() ? [line] : [];
 }
 
+/** How near a prediction was, in the page's language. */
 function verdict(question, prediction) {
   if (!question.answers) {
     const away = length(minus(prediction, question.truth)) / question.edge;
-    return `Your prediction is ${away.toFixed(2)} of an edge away.`;
+    return $("words").dataset.away.replace("{distance}", away.toFixed(2));
   }
   const yours = question.answers[prediction], truth = question.answers[question.truth];
-  return prediction === question.truth ? `You said ${yours}, and it is true.` : `You said ${yours}; ${truth} is true.`;
+  const { right, wrong } = $("words").dataset;
+  return (prediction === question.truth ? right : wrong).replace("{yours}", () => yours).replace("{truth}", () => truth);
 }
 
 /** The place that was said, over the picture; with the answer, tied to it. */

@@ -79,6 +79,15 @@ def page(recorded: Record) -> bytes:
     return "\n".join(parts).encode()
 
 
+TOLD = {
+    "click": "Click in the picture where you think it goes.",
+    "away": "Your prediction is {distance} of an edge away.",
+    "right": "You said {yours}, and it is true.",
+    "wrong": "You said {yours}; {truth} is true.",
+}
+"""What the script says of predictions."""
+
+
 # -- words ------------------------------------------------------------------------------------
 
 
@@ -89,7 +98,8 @@ def _player(title: str, steps: int) -> Iterator[str]:
     yield f'<div id="stage" tabindex="0" role="group" aria-label="{_said("Picture: drag to turn it")}">'
     yield '<canvas id="picture" role="img"></canvas></div>'
     yield f'<ul id="legend" aria-label="{_said("What the points are")}"></ul>'
-    yield '<div id="words" aria-live="polite">'
+    told = "".join(f' data-{name}="{_said(sentence)}"' for name, sentence in TOLD.items())
+    yield f'<div id="words" aria-live="polite"{told}>'
     yield f"<noscript>{_said('The picture needs JavaScript; the steps are below.')}</noscript></div>"
     yield f'<nav aria-label="{_said("Steps")}" data-step="{_said("Step {number} of {total}")}">'
     for id_, name, icons in BUTTONS:
