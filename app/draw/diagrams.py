@@ -126,6 +126,27 @@ def block_texts(stencil: Stencil, below: int, grid: Grid) -> tuple[str, ...]:
     return *sums, _table(dict(terms), grid), tersest
 
 
+@lru_cache(maxsize=64)
+def _blocks(stages: tuple[Stage, ...], below: int, grid: Grid) -> tuple[tuple[str, ...], ...]:
+    """``block_texts`` of every row of the product of some stages of a net; of none, of its own points."""
+    stencils = rows(stages)[0] if stages else _unmoved(grid.n_vertices)
+    return tuple(block_texts(each, below, grid) for each in stencils)
+
+
+@lru_cache(maxsize=64)
+def _sums(stages: tuple[Stage, ...]) -> tuple[tuple[str, ...], ...]:
+    """``row_texts`` of every row of the product of some stages of a polygon."""
+    stencils, below = rows(stages)
+    return tuple(row_texts(each, below) for each in stencils)
+
+
+@lru_cache(maxsize=64)
+def _parents(stage: Stage) -> tuple[tuple[int, ...], ...]:
+    """For every point of a stage those it is an average of, across no seam."""
+    found = [[int(p) for p in stage.stencil(i).parents] for i in range(stage.n_points)]
+    return tuple(tuple(p for p in parents if abs(p - i) <= 1) for i, parents in enumerate(found))
+
+
 Terms: TypeAlias = Sequence[tuple[int, Fraction | float]]
 """Point numbers and how often each counts."""
 
@@ -197,13 +218,12 @@ def _pyramid(told: _Told, at: float) -> Diagram:
 
 def _row(told: _Told, k: int, at: float, shown: Floats) -> list[Box]:
     """The boxes of stage ``k``; the copies of a point slide apart while it is split."""
-    stage, (stencils, below) = told.stages[k], rows(told.stages[: k + 1])
+    stage, said = told.stages[k], _sums(told.stages[: k + 1])
     slide = 0.0 if k else 1 - min(at, 1.0)
     found = []
     for i in range(stage.n_points):
         x = i + k / 2 + slide * (2 * int(stage.carries[i]) + 0.5 - i)
-        texts, role = row_texts(stencils[i], below), Role(stage.roles[i])
-        found.append(_box(told, (x, -k), texts, role, k + 1, i, float(shown[i]), FLAT, k))
+        found.append(_box(told, (x, -k), said[i], Role(stage.roles[i]), k + 1, i, float(shown[i]), FLAT, k))
     return found
 
 
@@ -212,8 +232,8 @@ def _strokes(told: _Told, k: int, shown: Floats) -> list[Link]:
     if k == 0:
         return []
     found = []
-    for i in range(told.stages[k].n_points):
-        for p in (int(p) for p in told.stages[k].stencil(i).parents if abs(int(p) - i) <= 1):
+    for i, parents in enumerate(_parents(told.stages[k])):
+        for p in parents:
             colour, line = _lit(told, min(_glow(told, k + 1, i), _glow(told, k, p)), told.theme.muted)
             x, below = i + k / 2, p + (k - 1) / 2
             found.append(Link(x, FLAT / 2 - k, below, 1 - k - FLAT / 2, colour, float(shown[i]), line))
@@ -251,8 +271,8 @@ def _sliding(told: _Told, stages: tuple[Stage, ...], t: float) -> list[Box]:
     *earlier, stage = stages
     grid, done = as_grid(told.control), len(stages)
     new, old = _places(stage.topology), _places(earlier[-1].topology if earlier else grid)
-    stencils, below = rows(stages)
-    before = rows(tuple(earlier))[0] if earlier else _unmoved(len(old))
+    below = rows(stages)[1]
+    after, before = _blocks(stages, below, grid), _blocks(tuple(earlier), below, grid)
     roles = earlier[-1].roles if earlier else np.zeros(len(old), dtype=np.intp)
     shown = _filled(stage.n_points, t)
     boxes = []
@@ -263,9 +283,9 @@ def _sliding(told: _Told, stages: tuple[Stage, ...], t: float) -> list[Box]:
             place = (1 - t) * old[source] + t * new[i]
             opacity = abs(2 * shown[i] - 1) if stage.moves else 1.0
         if shown[i] >= 0.5 or source < 0:
-            texts, role = block_texts(stencils[i], below, grid), Role(stage.roles[i])
+            texts, role = after[i], Role(stage.roles[i])
         else:
-            texts, role = block_texts(before[source], below, grid), Role(roles[source])
+            texts, role = before[source], Role(roles[source])
         boxes.append(_box(told, (float(place[0]), float(place[1])), texts, role, done, i, float(opacity), TALL))
     return boxes
 

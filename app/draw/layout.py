@@ -8,6 +8,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import takewhile
 from math import hypot
 
 import numpy as np
@@ -431,9 +432,10 @@ def _fullest(diagram: Diagram, group: int, cells: _Cells, least: float) -> tuple
     """Which of its texts all boxes of a group have room for, and the least of the sizes at which they hold it."""
     boxes = [b for b in diagram.boxes if b.group == group]
     for k in range(max(len(b.texts) for b in boxes)):
-        size = min(_room(b, b.texts[min(k, len(b.texts) - 1)], cells) for b in boxes)
-        if size >= least:
-            return k, size
+        said = sorted(((b, b.texts[min(k, len(b.texts) - 1)]) for b in boxes), key=lambda one: -len(one[1]))
+        rooms = list(takewhile(lambda size: size >= least, (_room(b, text, cells) for b, text in said)))
+        if len(rooms) == len(boxes):  # the longest first: where they have no room, no others need to be set
+            return k, min(rooms)
     return 0, 0.0
 
 
