@@ -30,6 +30,7 @@ from app.state import at_stop, choose, drag, last, start, stops, turn_view
 from lessons.script import Lesson, play, show
 from lessons.turn import Turn
 from subdivision import files, shapes, subdivide, trace
+from subdivision.files.saving import BEGIN, clear, part_of
 from subdivision.limit import limit_mesh
 from subdivision.schemes import QUAD_CENTROID
 
@@ -413,3 +414,15 @@ def test_a_process_tells_its_progress_and_stops_when_nobody_listens(tmp_path, wh
         assert [told(line)[0] for line in heard] == sorted(told(line)[0] for line in heard)
         assert left_in(tmp_path) == ["a.pdf"]
         assert last_line == str(path)
+
+
+def test_what_a_killed_export_has_left_is_found_by_its_name_and_nothing_else_goes(tmp_path, monkeypatch):
+    monkeypatch.setenv(BEGIN, "0a1b2c3d")
+    mine, folder = part_of(tmp_path / "a.gif"), part_of(tmp_path / "all")
+    monkeypatch.delenv(BEGIN)
+    other = part_of(tmp_path / "b.gif")
+    for file in (mine, other, tmp_path / ".0a1b2c3d.txt"):
+        file.write_bytes(b"half")
+    folder.mkdir()
+    clear(tmp_path, "0a1b2c3d")
+    assert sorted(tmp_path.iterdir()) == sorted([other, tmp_path / ".0a1b2c3d.txt"])

@@ -1,6 +1,7 @@
 """File > Export: a dialog that asks what, how and where, and the process that makes it."""
 
 import logging
+import secrets
 import sys
 from collections.abc import Mapping
 from contextlib import suppress
@@ -8,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from PySide6.QtCore import QObject, QProcess, Qt, QTimer
+from PySide6.QtCore import QObject, QProcess, QProcessEnvironment, Qt, QTimer
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -30,6 +31,7 @@ from app.sessions import keeping
 from app.sessions.strict import KeepingError
 from app.state import State
 from app.words import headed, tr
+from subdivision.files.saving import BEGIN, clear
 from subdivision.words import phrase
 
 OF = {"view": "What is shown", "lesson": "This lesson", "everything": "The whole lecture"}
@@ -179,7 +181,10 @@ class Exporter(QObject):
             self._banner.say(str(fault))
             return
         self._out = out = out.absolute()
-        self._process = QProcess(self)
+        self._process, self._begin = QProcess(self), secrets.token_hex(4)
+        surroundings = QProcessEnvironment.systemEnvironment()
+        surroundings.insert(BEGIN, self._begin)
+        self._process.setProcessEnvironment(surroundings)
         self._process.finished.connect(self._finished)
         self._process.errorOccurred.connect(self._failed)
         self._process.readyReadStandardOutput.connect(self._heard)
@@ -200,7 +205,9 @@ class Exporter(QObject):
         if self._process is not None:
             self.cancel()
             with suppress(RuntimeError):
-                self._process.waitForFinished(GRACE)
+                if not self._process.waitForFinished(GRACE):
+                    self._process.kill()
+                    self._process.waitForFinished(GRACE)
 
     def _heard(self) -> None:
         assert self._process is not None
@@ -236,6 +243,8 @@ class Exporter(QObject):
         if self._process is not None:
             self._process.deleteLater()
             self._process = None
+            for folder in (self._out, self._out.parent):  # one that had to be killed cleared nothing up
+                clear(folder, self._begin)
         if self._folder is not None:
             self._folder.cleanup()
             self._folder = None

@@ -12,6 +12,9 @@ from time import time
 PART = re.compile(r"\.[0-9a-f]{16}\.part")
 """What is half written is called so, and nothing else is."""
 
+BEGIN = "SUBDIVISION_STUDIO_PARTS"
+"""In the environment: the eight digits with which the names of all half files of this program begin, if any."""
+
 OLD = 3600.0
 """Seconds after which it is nobody's any more: its program was killed."""
 
@@ -45,7 +48,15 @@ def part_of(target: Path) -> Path:
         for each in os.scandir(target.parent):
             if PART.fullmatch(each.name) and time() - each.stat(follow_symlinks=False).st_mtime > OLD:
                 _remove(Path(each.path))
-    return target.with_name(f".{secrets.token_hex(8)}.part")
+    return target.with_name(f".{os.environ.get(BEGIN) or secrets.token_hex(4)}{secrets.token_hex(4)}.part")
+
+
+def clear(folder: Path, begin: str) -> None:
+    """Remove the half files of a program that was killed, whose names begin with eight digits."""
+    with suppress(OSError):
+        for each in os.scandir(folder):
+            if PART.fullmatch(each.name) and each.name.startswith(f".{begin}"):
+                _remove(Path(each.path))
 
 
 def _remove(path: Path) -> None:

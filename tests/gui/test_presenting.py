@@ -119,13 +119,13 @@ def test_the_magnifier_shows_panes_and_flat_parts_twice_as_large_about_the_mouse
         window.session.do(open_lesson, lessons.find(id_))
     window.session.do(last)
     window.viewport.narration.hide()
-    qtbot.wait(400)
+    qtbot.wait(1000)  # until it is smooth
     small = pixels(window)
     x, y = round(place[0] * small.shape[1]), round(place[1] * small.shape[0])
     move(window, 5, 5)
     press(window, Key.Key_F3)
     move(window, x, y)
-    qtbot.wait(400)
+    qtbot.wait(1000)
     assert unlike(pixels(window), small, x, y) < 0.03
     assert unlike(small, small, x, y) > 0.03
     press(window, Key.Key_Escape)
