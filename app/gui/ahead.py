@@ -6,6 +6,7 @@ Pieces are small and one at a time, in another thread; after any change there is
 
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from typing import TypeAlias
 
@@ -20,13 +21,16 @@ from app.laboratory import bench
 from app.log import LOG
 from app.state import State, at_stop, open_lesson, segments, stops
 from lessons import built_in
-from lessons.script import Lesson
+from lessons.script import Kind, Lesson
 
 QUIET, BETWEEN = 500, 10
 """Milliseconds without a change before the first piece, and from one piece to the next."""
 
 SWITCH = 0.001
 """Seconds a piece under way keeps the window's thread waiting."""
+
+WAY = (0.9, 0.7, 0.5, 0.3, 0.1)
+"""How many stages before a step the words are looked at that boxes have on the way there."""
 
 Piece: TypeAlias = Callable[[], object]
 
@@ -88,12 +92,16 @@ def played(lesson: Lesson, state: Callable[[], State], viewport: Viewport) -> It
     """A lesson from its first step to its last."""
     for k in range(len(stops(lesson))):
         yield partial(_drawn, lesson, k, state(), viewport)
+        for before in WAY:
+            yield partial(_drawn, lesson, k, state(), viewport, before)
 
 
-def _drawn(lesson: Lesson, step: int, state: State, viewport: Viewport) -> None:
-    """Lay out the picture of a step, for what is remembered of it."""
+def _drawn(lesson: Lesson, step: int, state: State, viewport: Viewport, before: float = 0.0) -> None:
+    """Lay out the picture of a step, or of so many stages ``before`` it where boxes change their words on the way."""
     there = at_stop(state, stops(lesson)[step]) if lesson is state.lesson else open_lesson(state, lesson, step)
-    overlay(compose(there), *viewport.room(), words=False)
+    at = max(there.at - before, there.now.start)
+    if not before or any(view.kind is Kind.DIAGRAM for view in there.now.views):
+        overlay(compose(replace(there, at=at)), *viewport.room(), words=False)
 
 
 class _Told(QObject):

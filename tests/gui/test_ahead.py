@@ -32,7 +32,10 @@ def test_what_was_got_ready_needs_no_formula_set_when_it_is_shown(window, monkey
     for lesson in told:
         state = open_lesson(window.session.state, lesson)
         for stop in stops(lesson):
-            overlay(compose(at_stop(state, stop)), *window.viewport.room(), words=False)
+            there = at_stop(state, stop)
+            for before in (0.0, *ahead.WAY):
+                then = replace(there, at=max(there.at - before, there.now.start))
+                overlay(compose(then), *window.viewport.room(), words=False)
 
 
 def test_lessons_are_told_while_the_window_rests(qtbot, window, monkeypatch):
