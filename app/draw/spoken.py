@@ -14,9 +14,7 @@ def translated(picture: Picture) -> Picture:
     if language() == ENGLISH:
         return picture
     legend = tuple(_said(entry, "text") for entry in picture.legend)
-    return replace(
-        _said(picture, "title", "corner"), legend=legend, panes=tuple(_pane(pane) for pane in picture.panes)
-    )
+    return replace(_said(picture, "title", "corner"), legend=legend, panes=tuple(_pane(pane) for pane in picture.panes))
 
 
 def _pane(pane: Pane) -> Pane:
