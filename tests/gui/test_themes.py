@@ -25,7 +25,7 @@ def surfaces(window):
 def in_view_menu(window, id_):
     """Whether a command stands in the menu View."""
     menus = {action.text(): action.menu() for action in window.menuBar().actions()}
-    return window.actions_by_id[id_] in menus["View"].actions()
+    return window.actions_by_id[id_] in menus["&View"].actions()
 
 
 @pytest.mark.parametrize("name", THEMES)
