@@ -4,6 +4,7 @@ import argparse
 import errno
 import json
 import os
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -35,6 +36,8 @@ MOST_NAMES = 12
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; 0 if all went well, 1 after a fault told in a sentence, 2 after a misuse."""
+    if argv is None:  # the program itself: when it is to end, what it has half written goes
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     arguments = list(sys.argv[1:] if argv is None else argv)
     speak(_wished(arguments) or system_language())
     parser, commands = _parsers()
@@ -52,6 +55,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         sentence = tr("there is not enough memory for this; choose fewer levels")
         print(f"subdivision-studio: {sentence}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
     except BrokenPipeError:  # the reader of our output, such as head, has had enough
         sys.stderr.close()
         return 0

@@ -3,8 +3,10 @@
 import json
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
 import zipfile
 from dataclasses import replace
 from itertools import pairwise
@@ -393,6 +395,18 @@ def test_the_command_says_what_is_wrong(capsys, arguments, says):
     assert (status, out) == (1, "")
     assert says in err
     assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGINT])
+def test_a_command_that_is_ended_leaves_nothing_half_written_and_says_nothing(tmp_path, end):
+    command = [sys.executable, "-m", "app", "export", "14", "-o", str(tmp_path / "a.gif"), "--size", "640x360"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        while not left_in(tmp_path) and process.poll() is None:
+            time.sleep(0.05)
+        process.send_signal(end)
+        out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (128 + end, "", "")
+    assert left_in(tmp_path) == []
 
 
 @pytest.mark.parametrize("when", ["cancelled", "left alone"])
