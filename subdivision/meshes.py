@@ -68,15 +68,16 @@ def refuses_literal_boundaries(t: Topology) -> str:
     return "its outline is to follow the rule of the inside, which has no points there; choose another boundary"
 
 
-def refuses_open(t: Topology) -> str:
-    """Why ``t`` has an outline; empty where it is closed."""
+def refuses_open(
+    t: Topology,
+    why: str = "it ends at the edge between vertices {a} and {b}, and no boundary rule is known; close the mesh",
+) -> str:
+    """Why ``t``, which has an outline, is not taken; empty where it is closed."""
     rim = np.flatnonzero(t.boundary)
     if rim.size == 0:
         return ""
     a, b = t.ends[rim[0]]
-    return phrase(
-        "it ends at the edge between vertices {a} and {b}, and no boundary rule is known; close the mesh", a=a, b=b
-    )
+    return phrase(why, a=a, b=b)
 
 
 def refuses_curves_at_the_boundary(t: Topology) -> str:

@@ -1,5 +1,6 @@
 """The menus: commands by their names, and nothing that does nothing."""
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QActionGroup
@@ -70,31 +71,27 @@ def _list_recent(window: "Window", menu: QMenu) -> None:
 
 
 def _themes(window: "Window", menu: QMenu) -> None:
-    group = QActionGroup(menu)
-    for name in (*THEMES, "system"):
-        action = window.actions_by_id[f"theme_{name}"]
-        action.setCheckable(True)
-        group.addAction(action)
-        menu.addAction(action)
+    _choices(window, menu, [f"theme_{name}" for name in (*THEMES, "system")])
     menu.aboutToShow.connect(lambda: window.actions_by_id[f"theme_{window.theme_choice()}"].setChecked(True))
 
 
 def _languages(window: "Window", menu: QMenu) -> None:
-    group = QActionGroup(menu)
-    for code in (*LANGUAGES, SYSTEM):
-        action = window.actions_by_id[f"language_{code}"]
-        action.setCheckable(True)
-        group.addAction(action)
-        menu.addAction(action)
+    _choices(window, menu, [f"language_{code}" for code in (*LANGUAGES, SYSTEM)])
     menu.aboutToShow.connect(lambda: window.actions_by_id[f"language_{window.language_choice()}"].setChecked(True))
 
 
-def _scales(window: "Window", menu: QMenu) -> None:
+def _choices(window: "Window", menu: QMenu, ids: Iterable[str]) -> None:
+    """Commands of which one holds at a time."""
     group = QActionGroup(menu)
-    for scale in SCALES:
-        action = window.actions_by_id[f"scale_{scale:.0%}".removesuffix("%")]
+    for id_ in ids:
+        action = window.actions_by_id[id_]
+        action.setCheckable(True)
         group.addAction(action)
         menu.addAction(action)
+
+
+def _scales(window: "Window", menu: QMenu) -> None:
+    _choices(window, menu, [f"scale_{scale:.0%}".removesuffix("%") for scale in SCALES])
     menu.addSeparator()
     for id_ in ("larger", "smaller", "usual_size"):
         menu.addAction(window.actions_by_id[id_])

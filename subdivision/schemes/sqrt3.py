@@ -12,6 +12,7 @@ what came before; a mesh with a boundary is refused.
 """
 
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 
@@ -27,7 +28,6 @@ from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Step, grown
 from subdivision.topology import Topology
 from subdivision.weights import by_count
-from subdivision.words import phrase
 
 
 def pull(n: int) -> Exact:
@@ -89,24 +89,17 @@ def _limit(topology: Connectivity) -> Stage:
     return vertices_to(t, mix(away, neighbours(t), identity(t.n_vertices)))
 
 
-def _refuses_open(t: Topology) -> str:
-    rim = np.flatnonzero(t.boundary)
-    if rim.size == 0:
-        return ""
-    a, b = t.ends[rim[0]]
-    return phrase(
-        "it ends at the edge between vertices {a} and {b}, and boundary edges are cut in every "
-        "second step only; close the mesh, or use Loop",
-        a=a,
-        b=b,
-    )
+OPEN = (
+    "it ends at the edge between vertices {a} and {b}, and boundary edges are cut in every "
+    "second step only; close the mesh, or use Loop"
+)
 
 
 SQRT3 = Scheme(
     name="sqrt3",
     title="Kobbelt's √3",
     paper="Kob00",
-    refuses=meshes.refusing(meshes.refuses_non_triangles, _refuses_open, meshes.refuses_sharp),
+    refuses=meshes.refusing(meshes.refuses_non_triangles, partial(meshes.refuses_open, why=OPEN), meshes.refuses_sharp),
     tellings={"insert, smooth, flip": smooth_and_flip, "insert, flip, smooth": flip_and_smooth},
     refinement=THIRDS,
     limit=_limit,

@@ -36,7 +36,7 @@ def main() -> int:
         print(table(report))
     sentences = [*_faults(report), *_grown(report)]
     if report.faults:
-        print("\n".join(["the last steps:", *report.steps]))
+        print("\n".join([*sentences, "the last steps:", *report.steps]), flush=True)  # finding the fewest takes long
         sentences.append(_shrunk(wanted, report, options))
     elif not options.begin:
         sentences += _others(wanted[: round(max(AGAIN * len(wanted), 40))], report, options.folder)
