@@ -36,13 +36,13 @@ MOST_NAMES = 12
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; 0 if all went well, 1 after a fault told in a sentence, 2 after a misuse."""
-    if argv is None:  # the program itself: when it is to end, what it has half written goes
-        signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     arguments = list(sys.argv[1:] if argv is None else argv)
     speak(_wished(arguments) or system_language())
     parser, commands = _parsers()
     chosen = commands[arguments.pop(0)] if arguments and arguments[0] in commands else parser
     options = chosen.parse_args(arguments)
+    if argv is None and options.run is not open_window:  # a program to be ended: what it has half written goes
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     try:
         _bring(options)
         status = int(options.run(options) or 0)
