@@ -1,5 +1,8 @@
 """Surfaces on pictures: what is drawn thins out as meshes get dense, and panels show what a figure's caption names."""
 
+from dataclasses import fields, replace
+from random import Random
+
 import numpy as np
 import pytest
 from scipy import ndimage
@@ -9,11 +12,12 @@ from app.draw.compose import compose, is_heavy
 from app.draw.geometry import facets, normals
 from app.draw.isophotes import LIGHT, STEP, isophotes
 from app.draw.picture import Faces, Picture
+from app.draw.pointed import ACROSS
 from app.draw.raster import image
 from app.draw.solid import CUBE
-from app.draw.surface import BRISK
+from app.draw.surface import BRISK, SHOWS
 from app.draw.theme import THEMES
-from app.state import Options, at_stop, start, stops
+from app.state import Options, at_stop, forward, settle, start, stops, tick
 from lessons.script import Lesson
 from subdivision import Role, Trace, continuity
 
@@ -127,3 +131,17 @@ def test_the_two_surfaces_of_figure_10_cost_the_same_and_differ_by_one_in_contin
     quadratic, quartic = module["QUADRATIC"], module["QUARTIC"]
     assert len(quadratic) == len(quartic)
     assert continuity.smoothness(quartic) - continuity.smoothness(quadratic) == 1
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_whatever_is_switched_on_together_anywhere_in_a_lesson_makes_a_picture(seed):
+    rng = Random(seed)
+    switches = [each.name for each in fields(Options) if isinstance(each.default, bool)]
+    for _ in range(100):
+        options = Options(**{name: rng.random() < 0.5 for name in switches}, surface_shows=rng.choice([*SHOWS]))
+        state = start(rng.choice(lessons.all_lessons()), replace(options, across=rng.choice([*ACROSS])))
+        for _ in range(rng.randrange(12)):
+            state = settle(forward(state))
+        moving = tick(forward(state), rng.random())
+        for each in (state, moving):
+            assert compose(each).panes, (state.lesson.id, state.beat, state.at, state.options)

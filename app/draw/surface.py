@@ -219,11 +219,13 @@ def _binned(lines: Lines, colours: Floats, *, is_curve: bool) -> list[Lines]:
 
 
 def _dotted(markers: Markers, colours: Floats) -> list[Markers]:
-    """The points that are there now in groups of one colour each."""
+    """The points that are there now, and have values, in groups of one colour each."""
     if markers.stage >= 0 or not len(markers.ids) or (markers.ids < 0).any():
         return [markers]
     is_limit = markers.name == limits.LIMIT_POINT  # these are numbered as in the level, but stand in order
     places = np.arange(len(markers.ids)) if is_limit else markers.ids
+    if places.max() >= len(colours):  # centroids lie on no surface
+        return [markers]
     return [
         replace(markers, points=markers.points[rows], radius=markers.radius[rows], opacity=markers.opacity[rows],
                 ids=markers.ids[rows], colour=colour, name="")
