@@ -1,8 +1,9 @@
 """A control object carried through the stages of a scheme, ready to be looked at."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import overload
 
 import numpy as np
 
@@ -121,7 +122,7 @@ class Trace:
     levels: tuple[int, ...]
 
     @cached_property
-    def points(self) -> tuple[Floats, ...]:
+    def points(self) -> Sequence[Floats]:
         """Positions before the first stage and after each one."""
         done = [self.control.points]
         for stage in self.stages:
@@ -167,45 +168,49 @@ class Trace:
         """The same stages with some control points elsewhere: ``vertex -> where to``, (3,) float.
 
         Every stage is linear, so each of its points goes by its own share of the move: one sparse
-        update for each vertex and stage, whatever the size of the rest.
+        update for each vertex, whatever the size of the rest, after those stages only that are looked at.
         """
         points = self.control.points.copy()
         ways = {vertex: np.asarray(to, dtype=float) - points[vertex] for vertex, to in moves.items()}
         for vertex, way in ways.items():
             points[vertex] += way
         there = self.with_control(Mesh(self.control.topology, points))
-        done = [there.control.points]
-        for k, before in enumerate(self.points[1:]):
-            after = before.copy()
-            for vertex, way in ways.items():
-                touched, share = self._influence(vertex)[k]
-                after[touched] += share[:, None] * way
-            done.append(frozen(after))
-        there.__dict__["points"] = tuple(done)  # where a cached property keeps its value
+        moved = _Later(len(self.points), lambda k: self._moved(ways, k) if k else there.control.points)
+        there.__dict__["points"] = moved  # where a cached property keeps its value
         return there
+
+    def _moved(self, ways: Mapping[int, Floats], k: int) -> Floats:
+        """The positions after ``k`` stages where control points go some ways."""
+        after = self.points[k].copy()
+        for vertex, way in ways.items():
+            touched, share = self._influence(vertex, k)
+            after[touched] += share[:, None] * way
+        return frozen(after)
 
     def influence(self, vertex: int, k: int) -> Floats:
         """(n_points,): how much of control point ``vertex`` each point holds after ``k`` stages: its basis function."""
-        touched, share = self._influence(vertex)[k - 1] if k else (np.array([vertex]), np.ones(1))
+        touched, share = self._influence(vertex, k)
         found = np.zeros(len(self.roles_at(k)))
         found[touched] = share
         return found
 
     @cached_property
-    def _influences(self) -> dict[int, tuple[tuple[Indices, Floats], ...]]:
+    def _influences(self) -> dict[tuple[int, int], tuple[Indices, Floats]]:
         return {}
 
-    def _influence(self, vertex: int) -> tuple[tuple[Indices, Floats], ...]:
-        """For every stage, the points that a control vertex reaches and how much of it each of them holds."""
-        if vertex not in self._influences:
-            column, found = np.zeros((len(self.points[0]), 1)), []
-            column[vertex] = 1.0
-            for stage in self.stages:
-                column = stage.operator.apply(column)
-                touched = np.flatnonzero(column)
-                found.append((touched, column[touched, 0]))
-            self._influences[vertex] = tuple(found)
-        return self._influences[vertex]
+    def _influence(self, vertex: int, k: int) -> tuple[Indices, Floats]:
+        """The points that a control vertex reaches in ``k`` stages, and how much of it each of them holds."""
+        if not k:
+            return np.array([vertex]), np.ones(1)
+        if (vertex, k) not in self._influences:
+            touched, share = self._influence(vertex, k - 1)
+            operator = self.stages[k - 1].operator
+            column = np.zeros((operator.shape[1], 1))
+            column[touched, 0] = share
+            column = operator.apply(column)
+            touched = np.flatnonzero(column)
+            self._influences[vertex, k] = touched, column[touched, 0]
+        return self._influences[vertex, k]
 
     def frame(self, at: float) -> Frame:
         """The frame ``at`` stages into the trace; the fraction is progress through a stage."""
@@ -237,6 +242,29 @@ class Trace:
             stage.topology, (1 - t) * start + t * after, start, birth, stage.roles, was, stage, t,
             self.mesh_at(k), before, self.roles_at(k), np.flatnonzero(gone), self.levels[k] + (done and t == 1),
         )  # fmt: skip
+
+
+class _Later(Sequence[Floats]):
+    """``n`` arrays, each made when it is first asked for: number ``k`` by ``make(k)``."""
+
+    def __init__(self, n: int, make: Callable[[int], Floats]) -> None:
+        self._made: list[Floats | None] = [None] * n
+        self._make = make
+
+    def __len__(self) -> int:
+        return len(self._made)
+
+    @overload
+    def __getitem__(self, k: int) -> Floats: ...
+    @overload
+    def __getitem__(self, k: slice) -> tuple[Floats, ...]: ...
+    def __getitem__(self, k: int | slice) -> Floats | tuple[Floats, ...]:
+        if isinstance(k, slice):
+            return tuple(self[each] for each in range(*k.indices(len(self))))
+        k = range(len(self))[k]
+        if (made := self._made[k]) is None:
+            made = self._made[k] = self._make(k)
+        return made
 
 
 def trace(
