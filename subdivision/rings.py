@@ -34,6 +34,15 @@ class Fan:
     sharpness: tuple[float, ...] = ()
     pinned: float = 0.0
 
+    @property
+    def mirrored(self) -> "Fan":
+        """The same fan seen from behind."""
+        n = self.left + 2
+        near, left, right = self.sharpness[1::-1], self.sharpness[2:n], self.sharpness[n:]
+        if self.closed:
+            return Fan(self.left, self.right, True, near + left[::-1], self.pinned)
+        return Fan(self.right, self.left, False, near + right + left, self.pinned)
+
 
 @dataclass(frozen=True)
 class RingFace:
@@ -189,9 +198,13 @@ def _joined(shape: Shape, name: Hashable) -> Hashable:
 
 @dataclass(frozen=True, eq=False)
 class Sorted:
-    """The faces of a mesh by kind: those of ``kinds[i]`` are ``faces[start[i]:start[i + 1]]``."""
+    """The faces of a mesh by kind: those of ``kinds[i]`` are ``faces[start[i]:start[i + 1]]``.
+
+    In a mirror that keeps the first corner they are ``kinds[images[i]]``, or none of them where that is -1.
+    """
 
     kinds: tuple[Kind, ...]
+    images: tuple[int, ...]
     faces: Indices
     start: Indices
 
@@ -232,7 +245,15 @@ def sorted_faces(t: Topology, apart: Mask, at_most: int) -> Sorted | None:
     kinds = tuple(Kind(tuple(fans[c] for c in row)) for row in first)
     if any(fan.closed and fan.left < 2 for kind in kinds for fan in kind.fans):
         return None
-    return Sorted(kinds, order, start)
+    return Sorted(kinds, _images(first, fans), order, start)
+
+
+def _images(kinds: list[list[int]], fans: list[Fan]) -> tuple[int, ...]:
+    """The place of the image of each of ``kinds``, which are told by the numbers of their fans; -1 for none."""
+    numbers = {fan: c for c, fan in enumerate(fans)}
+    image = [numbers.get(fan.mirrored, -1) for fan in fans]
+    places = {tuple(row): i for i, row in enumerate(kinds)}
+    return tuple(places.get(tuple(image[row[-i]] for i in range(len(row))), -1) for row in kinds)
 
 
 def unfolded(kinds: tuple[Kind, ...]) -> tuple[Topology, Indices]:

@@ -10,14 +10,15 @@ numbers the stages give them.
 """
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
-from subdivision import refine
-from subdivision.arrays import Floats, Indices, frozen, short, taken
+from subdivision.arrays import Floats, Indices, short, taken
 from subdivision.kernels import Rule, kernel
-from subdivision.rings import Kind, sorted_faces, unfolded, with_ring
+from subdivision.mirrors import seen_mirrored
+from subdivision.rings import Kind, Sorted, sorted_faces, unfolded, with_ring
+from subdivision.templates import blocks, descendants, template
 from subdivision.topology import Topology
 
 AT_ONCE = 2048
@@ -26,89 +27,6 @@ AT_ONCE = 2048
 _remembered: dict[tuple[Kind, int, Rule], Floats] = {}
 """Tables of smooth kinds, which other meshes have, too."""
 REMEMBERED_AT_MOST = 256
-
-
-@dataclass(frozen=True, eq=False)
-class Template:
-    """A face with ``k`` corners after ``depth`` splits: its corners, the points inside, then those on its sides.
-
-    Attributes
-    ----------
-    corners : (4 ** depth, k) int
-        The corners of its small faces.
-    first : (n_points,) int
-        Where in ``corners``, flattened, each point comes first.
-    """
-
-    k: int
-    depth: int
-    corners: Indices
-    first: Indices
-
-    @property
-    def on_side(self) -> int:
-        """How many points there are between two corners."""
-        return (1 << self.depth) - 1
-
-    @property
-    def n_inside(self) -> int:
-        return len(self.first) - self.k * (1 + self.on_side)
-
-    def until_side(self, i: int) -> int:
-        """How many points there are before those between corner ``i`` and the next."""
-        return self.k + self.n_inside + i * self.on_side
-
-
-@lru_cache(maxsize=16)
-def template(k: int, depth: int) -> Template:
-    """The split face, whatever mesh it is in: nothing but arithmetic."""
-    t = Topology.from_corners(np.array([k]), np.arange(k))
-    at = np.array([[0, 0], [1, 0], [1, 1], [0, 1]] if k == 4 else [[0, 0], [1, 0], [0, 1]], dtype=float)
-    ends = np.stack([at, np.roll(at, -1, axis=0)], axis=1)
-    for _ in range(depth):
-        centres = [at[t.origin.reshape(-1, 4)].mean(axis=1)] if k == 4 else []
-        at = np.concatenate([at, *centres, at[t.ends].mean(axis=1)])
-        t = refine.quads(t) if k == 4 else refine.triangles(t)
-    n = 2**depth
-    number = {tuple(p): v for v, p in enumerate((at * n).astype(int).tolist())}
-    sides = [
-        number[int(n * a[0] + j * (b[0] - a[0])), int(n * a[1] + j * (b[1] - a[1]))]
-        for a, b in ends.tolist()
-        for j in range(1, n)
-    ]
-    order = [*range(k), *sorted(set(range(k, len(at))) - set(sides)), *sides]
-    renumbered = np.empty(len(order), dtype=np.intp)
-    renumbered[order] = np.arange(len(order))
-    small, _ = descendants(k, 1, depth)
-    corners = renumbered[t.origin.reshape(-1, k)[small]]
-    return Template(k, depth, corners, np.unique(corners, return_index=True)[1])
-
-
-@lru_cache(maxsize=64)
-def descendants(k: int, n_faces: int, depth: int) -> tuple[Indices, Indices]:
-    """Face ``f`` of ``n_faces`` has, ``depth`` splits on, the small faces ``first + each * f``: ``first``, ``each``."""
-    first, each = np.zeros(1, dtype=np.intp), np.ones(1, dtype=np.intp)
-    for _ in range(depth):
-        if k == 4:
-            first, each = (4 * first[:, None] + np.arange(4)).ravel(), np.repeat(4 * each, 4)
-        else:
-            outer = (3 * first[:, None] + np.arange(3)).ravel(), np.repeat(3 * each, 3)
-            first, each = np.concatenate([outer[0], 3 * n_faces + first]), np.concatenate([outer[1], each])
-        n_faces *= 4
-    return frozen(first), frozen(each)
-
-
-@lru_cache(maxsize=64)
-def _blocks(k: int, n_faces: int, depth: int) -> tuple[tuple[slice, Indices], ...]:
-    """Which small faces follow each other, and which of every split face they are."""
-    first, each = descendants(k, n_faces, depth)
-    order = np.argsort(first)
-    blocks, done = list[tuple[slice, Indices]](), 0
-    while done < len(order):
-        begin, count = int(first[order[done]]), int(each[order[done]])
-        blocks.append((slice(begin, begin + count * n_faces), order[done : done + count]))
-        done += count
-    return tuple(blocks)
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,7 +117,7 @@ class Tables:
         _counted(begin[F:].reshape(F, k), step[F:].reshape(F, k), sides)
         _counted(begin[:F], step[:F], numbers[:, k : split.until_side(0)])
         origin = np.empty((F * len(split.corners), k), dtype=number)
-        for small, some in _blocks(k, F, self.depth):
+        for small, some in blocks(k, F, self.depth):
             np.take(numbers, split.corners[some].ravel(), axis=1, out=origin[small].reshape(F, -1), mode="clip")
         return origin.reshape(-1)
 
@@ -240,7 +158,7 @@ def tables(t: Topology, depth: int, rule: Rule, at_most: int) -> Tables | None:
         :, None
     ] * np.arange(k)
     patches, none = [], np.zeros(0, dtype=np.intp)
-    for i, (around, table) in enumerate(zip(found.rings(t), _tables(found.kinds, depth, rule), strict=True)):
+    for i, (around, table) in enumerate(zip(found.rings(t), _tables(found, depth, rule), strict=True)):
         patches.append(Patches(
             ring=around,
             table=table[k : split.until_side(owns[i])],
@@ -260,22 +178,23 @@ def _share(twin: Indices, begin: Indices, step: Indices, on_side: int) -> None:
     step[bare] = -step[twin[bare]]
 
 
-def _tables(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
+def _tables(found: Sorted, depth: int, rule: Rule) -> list[Floats]:
     """(n_points, n_vertices) float for each kind: the points of the template from those of the ring.
 
-    What is smooth is remembered for other meshes; there is not much of it.
+    Of a kind and its image one is computed.  What is smooth is remembered for other meshes; there is not much of it.
     """
-    made = [_remembered.get((kind, depth, rule)) if kind.is_smooth else None for kind in kinds]
-    missing = [i for i, table in enumerate(made) if table is None]
-    if missing:
-        if len(_remembered) > REMEMBERED_AT_MOST:
-            _remembered.clear()
-        some = tuple(kinds[i] for i in missing)
-        for i, kind, table in zip(missing, some, _computed(some, depth, rule), strict=True):
-            made[i] = table
-            if kind.is_smooth:
-                _remembered[kind, depth, rule] = table
-    return [table for table in made if table is not None]
+    if len(_remembered) > REMEMBERED_AT_MOST:
+        _remembered.clear()
+    kinds, images = found.kinds, found.images
+    keys = [(kind, depth, rule) for kind in kinds]
+    made = {i: _remembered[key] for i, key in enumerate(keys) if key[0].is_smooth and key in _remembered}
+    missing = [i for i in range(len(kinds)) if i not in made]
+    first = [i for i in missing if not 0 <= images[i] < i]
+    if first:
+        made |= zip(first, _computed(tuple(kinds[i] for i in first), depth, rule), strict=True)
+    made |= {i: seen_mirrored(made[images[i]], kinds[i], depth) for i in missing if i not in made}
+    _remembered.update({keys[i]: made[i] for i in missing if kinds[i].is_smooth})
+    return [made[i] for i in range(len(kinds))]
 
 
 def forget() -> None:

@@ -12,11 +12,14 @@ from subdivision import Boundary, Grid, Mesh, Plan, Polyline, Scheme, Topology, 
 from subdivision.arrays import Floats
 from subdivision.kernels import Kernel, Rows
 from subdivision.later import Later
+from subdivision.mirrors import seen_mirrored
+from subdivision.rings import sorted_faces
 from subdivision.schemes import CATMULL_CLARK, LOOP, QUAD_CENTROID, SCHEMES, lane_riesenfeld, tensor_product
 from subdivision.stage import Step
-from subdivision.tables import Tables, descendants, template
+from subdivision.tables import Tables
+from subdivision.templates import descendants, template
 
-PLANS = sys.modules["subdivision.plan"]
+PLANS, TABLES = (sys.modules[f"subdivision.{name}"] for name in ("plan", "tables"))
 FAST = [scheme for scheme in SCHEMES if scheme.reach]
 QUADS, TRIANGLES = (["cube", "plus-sign", "quad-bipyramid", "quad-fan", "quad-sheet", "torus", "mug"],
                     ["tetrahedron", "octahedron", "bipyramid", "triangle-fan", "triangle-sheet", "triangle-torus"])
@@ -100,6 +103,20 @@ def test_tables_follow_any_sharpness(data: st.DataObject) -> None:
     control = Mesh(Topology.from_faces(t.loops(), creases=creases, corners=corners), mesh.points)
     made = plan(control.topology, scheme, 3)
     assert_same(made, made.apply(control.points), staged(control, scheme, 3), "any sharpness")
+
+
+@pytest.mark.parametrize("scheme", [QUAD_CENTROID, LOOP], ids=lambda s: s.name)
+def test_a_kind_of_face_and_its_image_in_a_mirror_have_one_table(scheme: Scheme) -> None:
+    taken = 0
+    for name, mesh in meshes(scheme):
+        t = scheme.step(mesh.topology).topology
+        found, rule = sorted_faces(t, np.zeros(t.n_faces, dtype=bool), t.n_faces), PLANS._rule(t, scheme)
+        for kind, image in zip(found.kinds, found.images, strict=True) if found else ():
+            if image >= 0 and kind != found.kinds[image]:
+                one, other = (TABLES._computed((x,), 2, rule)[0] for x in (kind, found.kinds[image]))
+                assert np.abs(seen_mirrored(other, kind, 2) - one).max() < 1e-12, name
+                taken += any(fan.sharpness and not fan.closed for fan in kind.fans)
+    assert taken
 
 
 def test_control_faces_of_any_size_go_through_tables() -> None:
