@@ -7,6 +7,7 @@ from PySide6.QtGui import QFont, QIcon
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QVBoxLayout, QWidget
 
 from app.gui.look import px, type_face
+from app.gui.parts import scrolled
 from app.words import tr
 from subdivision.words import phrase
 
@@ -40,9 +41,15 @@ class Consent(QDialog):
         column = QVBoxLayout(self)
         column.setContentsMargins(px(24), px(24), px(24), px(16))
         column.setSpacing(px(16))
-        for part in (question, where, _plain(_listed(files)), _plain(tr(WHAT_THEY_ARE)), self.buttons):
+        names = scrolled(_plain(_listed(files)))
+        names.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        names.setAccessibleName(tr("Lessons from elsewhere"))
+        for part in (question, where, names, _plain(tr(WHAT_THEY_ARE)), self.buttons):
             column.addWidget(part)
-        self.setMinimumWidth(min(px(520), parent.width()))
+        width, room = min(px(520), parent.width()), parent.screen().availableGeometry().height()
+        self.setMinimumWidth(width)
+        self.setMaximumHeight(room)
+        self.resize(width, min(column.totalHeightForWidth(width), room))
         self.later.setDefault(True)  # now that it has a dialog to be the default of
         self.later.setFocus()
 

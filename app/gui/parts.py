@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QPointF, QSize, Qt
 from PySide6.QtGui import QFont, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QAbstractButton, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QAbstractButton, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from app.gui.look import fine, px, type_face
 from app.words import tr
@@ -16,6 +16,15 @@ def column(*parts: QWidget, stretched: QWidget | None = None) -> QWidget:
     layout.setSpacing(0)
     for part in parts:
         layout.addWidget(part, 1 if part is stretched else 0)
+    return found
+
+
+def scrolled(part: QWidget) -> QScrollArea:
+    """What has no room is scrolled to, up and down."""
+    found = QScrollArea(widgetResizable=True)
+    found.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    found.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    found.setWidget(part)
     return found
 
 

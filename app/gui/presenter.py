@@ -12,7 +12,7 @@ from app.draw.type import measure
 from app.gui.brush import type_
 from app.gui.furniture import throw_away
 from app.gui.look import GRID, fine, px, type_face
-from app.gui.parts import column, gap, heading
+from app.gui.parts import column, gap, heading, scrolled
 from app.gui.preview import Preview
 from app.gui.session import Session
 from app.gui.timeline import current
@@ -91,7 +91,7 @@ class Presenter(QWidget):
         now = _spaced(self.caption, self.formula, gap(px(GRID)), heading("Notes"), reader, stretched=reader)
         below, self._times = QVBoxLayout(), self._lay_out_times()
         below.addWidget(heading("Next"))
-        below.addWidget(_scrolled(self.following), 1)
+        below.addWidget(scrolled(self.following), 1)
         below.addSpacing(px(GRID))
         below.addLayout(self._times)
         bottom.addLayout(below, 1)
@@ -99,7 +99,7 @@ class Presenter(QWidget):
         bottom.addWidget(self.preview, 0, Qt.AlignmentFlag.AlignBottom)
         page.addLayout(top)
         page.addSpacing(px(GRID))
-        page.addWidget(_scrolled(now), 1)
+        page.addWidget(scrolled(now), 1)
         page.addSpacing(px(GRID))
         page.addLayout(bottom)
         self._fit()
@@ -237,15 +237,6 @@ def spoken_time(seconds: int) -> str:
     """Minutes and seconds, with hours from the first one on."""
     minutes, hours = seconds // 60 % 60, seconds // 3600
     return f"{hours}:{minutes:02}:{seconds % 60:02}" if hours else f"{minutes}:{seconds % 60:02}"
-
-
-def _scrolled(part: QWidget) -> QScrollArea:
-    """What has no room is scrolled to, up and down."""
-    found = QScrollArea(widgetResizable=True)
-    found.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-    found.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    found.setWidget(part)
-    return found
 
 
 def _spaced(*parts: QWidget, stretched: QWidget) -> QWidget:

@@ -158,7 +158,7 @@ class Run:
 
     def _step(self) -> None:
         faulthandler.dump_traceback_later(STALLED, exit=True)
-        if self._is_busy():
+        if self._is_busy() or not self._has_focus():
             self._next.start(2)
             return
         self._see()
@@ -201,6 +201,13 @@ class Run:
             self.faults.add(f"work beside the window took more than {PATIENCE:.0f} s")
             return False
         return is_busy
+
+    def _has_focus(self) -> bool:
+        """Whether keys go anywhere; where no window manager gives the focus back, the window asks for it."""
+        if QApplication.activeWindow() or QApplication.activePopupWidget():
+            return True
+        self.window.activateWindow()
+        return False
 
     def _see(self) -> None:
         """What the watchdog saw of the step that is over."""
