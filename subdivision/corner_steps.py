@@ -1,4 +1,7 @@
-"""One step of a dual scheme on whole arrays: all faces of one size become their new corners by one product."""
+"""Dual schemes on whole arrays: all faces of one size become their new corners by one product.
+
+That is one step of most of them, and two of mid-edge subdivision, whose points come back to the corners.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,8 +10,8 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array
 
-from subdivision import refine_dual
 from subdivision.arrays import Floats, taken
+from subdivision.corner_numbers import Numbering
 from subdivision.exact import Exact
 from subdivision.kernels import Rows
 from subdivision.topology import Topology
@@ -19,10 +22,11 @@ Wave = Callable[[int, int], Exact | int]
 
 @dataclass(frozen=True, eq=False)
 class CornerStep:
-    """One step from ``coarse``, numbered as the stages do: a point for every half-edge, in the corner it leaves."""
+    """From ``coarse``, numbered as the stages do: a point for every half-edge, in the corner it leaves."""
 
     coarse: Topology
     wave: Wave
+    numbering: Numbering
 
     @property
     def n_points(self) -> int:
@@ -37,7 +41,7 @@ class CornerStep:
         for k in np.flatnonzero(np.bincount(sizes)).tolist():
             h = (start[sizes == k][:, None] + np.arange(k)).ravel()
             corners = taken(points, taken(self.coarse.origin, h)).reshape(-1, k * d)
-            made[h] = (corners @ np.kron(self._weights(k).T, np.eye(d))).reshape(-1, d)
+            made[h] = (corners @ np.kron(weights(self.wave, k).T, np.eye(d))).reshape(-1, d)
         return made
 
     def assembled(self) -> Rows:
@@ -50,17 +54,18 @@ class CornerStep:
         k, first = count[row], start[row]
         table = np.zeros((int(sizes.max()) + 1, int(sizes.max())))
         for size in np.unique(sizes).tolist():
-            table[size, :size] = self._weights(size)[0]
+            table[size, :size] = weights(self.wave, size)[0]
         corner = first + (row - first + ahead) % k
         places = row, self.coarse.origin[corner]
         return Rows(csr_array((table[k, ahead], places), shape=(n, self.coarse.n_vertices)))
 
     @cached_property
     def topology(self) -> Topology:
-        """After the step."""
-        return refine_dual.corners(self.coarse)
+        """After the step, or the steps."""
+        return self.numbering.refined(self.coarse)
 
-    def _weights(self, k: int) -> Floats:
-        """(k, k): row by row what each new corner of a face holds of its corners."""
-        row: Floats = np.array([float(self.wave(k, j)) for j in range(k)])
-        return np.take(row, (np.arange(k) - np.arange(k)[:, None]) % k)
+
+def weights(wave: Wave, k: int) -> Floats:
+    """(k, k): row by row what each new corner of a face of ``k`` holds of its corners."""
+    row: Floats = np.array([float(wave(k, j)) for j in range(k)])
+    return np.take(row, (np.arange(k) - np.arange(k)[:, None]) % k)

@@ -2,8 +2,8 @@
 
 The first levels are kernels, one after the other.  Where the rest is deep, a table for each
 kind of face makes it at once; a small mesh has one table for everything.  Dual schemes have
-steps of their own.  Schemes that have none are told in stages, which all of this is tested
-against.
+steps of their own, and tables for each kind of corner.  Schemes that have none are told in
+stages, which all of this is tested against.
 """
 
 from dataclasses import dataclass, replace
@@ -14,9 +14,12 @@ import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, frozen
-from subdivision.corner_steps import CornerStep
+from subdivision.corner_blocks import Blocks, blocks
+from subdivision.corner_numbers import Numbering
+from subdivision.corner_steps import CornerStep, Wave
 from subdivision.kernels import Kernel, Rows, Rule, assembled, kernel
 from subdivision.later import Later, later
+from subdivision.meshes import as_mesh
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
@@ -35,7 +38,7 @@ FACES_A_KIND, FINE_FACES_A_KIND = 6, 2_000
 SMALL, SMALL_ENOUGH = 16, 8_000
 """Control points, and points made of them, up to which one dense matrix is the fastest plan."""
 
-AnyStep: TypeAlias = Kernel | Later | CornerStep | Rows | Step | Tables
+AnyStep: TypeAlias = Kernel | Later | CornerStep | Blocks | Rows | Step | Tables
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +82,10 @@ class Plan:
     def numbers(self) -> Indices:
         """(n_vertices,) int: where the points are that the stages number 0, 1, 2, ..."""
         numbers = np.arange(self.topology.n_vertices)
-        if self.steps and isinstance(self.steps[-1], Tables):
-            numbers[_refined(self.steps[-1]).origin] = self.topology.origin
+        if self.steps and isinstance(self.steps[-1], Tables | Blocks):
+            last = self.steps[-1]
+            stages = last.refined() if isinstance(last, Blocks) else _refined(last)
+            numbers[stages.origin] = self.topology.origin
         return frozen(numbers)
 
 
@@ -102,6 +107,8 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     """The same plan, quicker to make and, of small meshes, slower to apply."""
     scheme.require(t)
     rule = _rule(t, scheme)
+    if isinstance(t, Topology) and scheme.corners and scheme.numbering:
+        return _dual(t, scheme, scheme.corners, scheme.numbering, levels)
     if rule is None or not isinstance(t, Topology) or scheme.refinement is None:
         return _staged(t, scheme, levels)
     fine = scheme.refinement.faces(t, levels) if levels else 0
@@ -138,10 +145,26 @@ def _rule(t: Connectivity, scheme: Scheme) -> Rule | None:
     return Rule(scheme.refinement.size, scheme.reach)
 
 
+def _dual(t: Topology, scheme: Scheme, wave: Wave, numbering: Numbering, levels: int) -> Plan:
+    """Points in the corners, then blocks of them; a step for itself where two would double."""
+    fine = scheme.faces_after(t, levels)
+    doublings, single = divmod(levels, numbering.steps)
+    steps: list[AnyStep] = []
+    for _ in range(single):
+        steps.append(step := scheme.step(t))
+        t = as_mesh(step.topology)
+    if doublings > 1 and fine > WORTH_TABLES and (deep := blocks(t, wave, numbering, doublings - 1)):
+        return Plan(deep.topology, (*steps, CornerStep(t, wave, numbering), deep))
+    for _ in range(doublings):
+        steps.append(corner_step := CornerStep(t, wave, numbering))
+        t = corner_step.topology
+    return Plan(t, tuple(steps))
+
+
 def _staged(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
-    steps: list[Step | CornerStep] = []
+    steps: list[Step] = []
     for _ in range(levels):
-        steps.append(CornerStep(t, scheme.corners) if scheme.corners and isinstance(t, Topology) else scheme.step(t))
+        steps.append(scheme.step(t))
         t = steps[-1].topology
     return Plan(t, tuple(steps))
 

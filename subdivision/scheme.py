@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from subdivision.corner_numbers import Numbering
 from subdivision.exact import Exact
 from subdivision.manifold import TopologyError
 from subdivision.operators import Operator
@@ -40,6 +41,8 @@ class Scheme:
         the others of its refinement; then ``plan.py`` knows a fast way.
     corners : (number of corners, steps ahead) -> weight, optional
         Likewise of a dual scheme: what a new corner of a face holds of the corner so far ahead of it.
+    numbering : Numbering, optional
+        Likewise: after how many steps there is one for each old corner, and in which order.
     limit : Connectivity -> Stage, optional
         Points to where they tend to.
     tangents : Topology -> (Operator, Operator), optional
@@ -55,6 +58,7 @@ class Scheme:
     rings: int = 1
     reach: Callable[[int], Exact | int] | None = None
     corners: Callable[[int, int], Exact | int] | None = None
+    numbering: Numbering | None = None
     limit: Callable[[Connectivity], Stage] | None = None
     tangents: Callable[[Topology], tuple[Operator, Operator]] | None = None
 

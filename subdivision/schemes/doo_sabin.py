@@ -20,6 +20,7 @@ import numpy as np
 
 from subdivision import meshes
 from subdivision.averages import edge_midpoints, face_centroids
+from subdivision.corner_numbers import BY_CORNERS
 from subdivision.cycles import round_faces
 from subdivision.exact import Exact, cosine
 from subdivision.limit_rules import dual_limit
@@ -56,7 +57,7 @@ def cosine_weights(n: int, j: int) -> Exact:
 
 def four_weights(n: int, j: int) -> Fraction:
     """The same, by the mean of four."""
-    return Fraction(1, 4 * n) + {0: Fraction(1, 2), 1: Fraction(1, 8), n - 1: Fraction(1, 8)}.get(j, Fraction(0))
+    return Fraction(1, 4 * n) + Fraction(4 * (j == 0) + (j == 1) + (j == n - 1), 8)
 
 
 def split_and_shrink(t: Topology, rule: Rule) -> Step:
@@ -145,6 +146,7 @@ DOO_SABIN = Scheme(
     },
     refinement=CORNERS,
     corners=cosine_weights,
+    numbering=BY_CORNERS,
     limit=partial(dual_limit, corners=cosines),
 )
 
@@ -160,5 +162,6 @@ DOO_SABIN_MEAN = Scheme(
     },
     refinement=CORNERS,
     corners=four_weights,
+    numbering=BY_CORNERS,
     limit=partial(dual_limit, corners=mean_of_four),
 )

@@ -11,6 +11,7 @@ import numpy as np
 
 from subdivision import meshes
 from subdivision.averages import edge_midpoints, neighbours
+from subdivision.corner_numbers import BY_MIDPOINTS
 from subdivision.limit_rules import vertices_to
 from subdivision.operators import MeanOf, Operator, Pick, identity, stack
 from subdivision.refine_dual import MIDPOINTS, midpoints
@@ -45,6 +46,11 @@ def cut_off(topology: Connectivity) -> Step:
     ))  # fmt: skip
 
 
+def two_steps(n: int, j: int) -> Fraction:
+    """What the point in a corner of a face of ``n`` holds of the corner ``j`` further round after two steps."""
+    return Fraction(2 * (j == 0) + (j == 1) + (j == n - 1), 4)
+
+
 def _quarters(t: Topology) -> Operator:
     """(V + 2 E, V): the vertices; then on every edge a point nearer to its first end; then nearer to the other."""
     there = t.ends[:, ::-1].T.ravel()
@@ -66,5 +72,7 @@ MID_EDGE = Scheme(
     refuses=meshes.refusing(meshes.refuses_sharp, meshes.refuses_open),
     tellings={"midpoints": connected_midpoints, "cut the corners": cut_off},
     refinement=MIDPOINTS,
+    corners=two_steps,
+    numbering=BY_MIDPOINTS,
     limit=_limit,
 )
