@@ -260,7 +260,7 @@ def _label(pen: Any, title: str, at: tuple[int, int], theme: Theme) -> None:
     """A figure's number, and its name in as many letters as have room."""
     from PIL import ImageFont
 
-    from app.draw.type import BOLD, REGULAR
+    from app.draw.letters import BOLD, REGULAR
 
     first, _, rest = title.removeprefix(tr("Figure ")).rpartition("  ")
     bold, plain = (ImageFont.truetype(str(file), TYPE) for file in (BOLD, REGULAR))

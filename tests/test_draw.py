@@ -9,11 +9,12 @@ import pytest
 
 import lessons
 from app.draw import raster
-from app.draw.compose import compose
+from app.draw.compose import compose, said
 from app.draw.depth import depth_of
 from app.draw.geometry import dashes, facets, normals
 from app.draw.labels import Kept, placed
 from app.draw.layout import extent, fitted, overlay, pane_areas
+from app.draw.letters import END, _shaped, letters
 from app.draw.picture import Box, Camera, Diagram, Faces, Label, Lines, Markers, Pane, Picture, Scene, Shape
 from app.draw.primitives import LEAST, Mark, Plate, Text
 from app.draw.raster import image
@@ -70,6 +71,22 @@ def overlap(a, b, slack=0.5):
 
 def test_figures_have_one_width():
     assert {measure(figure * 3, 100)[0] for figure in "0123456789"} == {measure("000", 100)[0]}
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_letters_stand_where_the_shaper_sets_the_whole_caption(language):
+    for lesson in lessons.all_lessons():
+        state = start(lesson, Options(language=language))
+        for text in (run.text for beat in lesson.beats for run in runs(said(state, beat)) if not run.is_math):
+            placed, whole = letters(text, bold=False), list(_shaped(f"{text}{END}", bold=False))
+            assert [(step, above) for step, above, _ in placed] == [(step, above) for step, above, _ in whole], text
+            assert all(a[2] is b[2] for a, b in zip(placed, whole, strict=True)), text
+
+
+def test_letters_that_join_or_run_leftwards_are_left_to_the_shaper():
+    for text in ("e\u0301a", "\u05e9\u05dc\u05d5\u05dd", "1920x108", "3/(8n) "):
+        placed, whole = letters(text, bold=True), list(_shaped(f"{text}{END}", bold=True))
+        assert [letter[:2] for letter in placed] == [letter[:2] for letter in whole]
 
 
 def test_widths_of_words_add_up_with_their_spaces():

@@ -11,7 +11,7 @@ from matplotlib.ft2font import FT2Font
 import lessons
 from app import words
 from app.draw.compose import compose, said
-from app.draw.type import REGULAR
+from app.draw.letters import REGULAR
 from app.export.wish import FORMATS
 from app.sessions.link import followed, link
 from app.state import Options, Stop, at_stop, start

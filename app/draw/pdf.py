@@ -21,11 +21,12 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D, Bbox
 
 from app.draw.layout import overlay, pane_areas
+from app.draw.letters import BOLD, FEATURES, REGULAR
 from app.draw.picture import Colour, Picture, Scene
 from app.draw.primitives import ANCHOR, RIM, Area, Plate, Primitive, Text
 from app.draw.projection import projected
 from app.draw.raster import Brush
-from app.draw.type import BOLD, FAMILY, FEATURES, MATHEMATICS, MATHEMATICS_SIZE, REGULAR, measure, path, runs
+from app.draw.type import FAMILY, MATHEMATICS, MATHEMATICS_SIZE, measure, path, runs
 
 _FILE: Any = PdfFile
 _RENDERER: Any = RendererPdf

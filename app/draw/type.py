@@ -4,32 +4,25 @@ Every painter measures with this, so that a picture breaks its lines at the same
 """
 
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from threading import Lock
 from typing import TypeAlias
 
 import numpy as np
-from matplotlib.font_manager import FontProperties, fontManager, get_font
+from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path as Outline
 from matplotlib.textpath import TextToPath
 
-from app import ASSETS
+from app.draw.letters import Glyph, advance, shape
 from subdivision.arrays import Floats, Indices
 
-FONTS = ASSETS / "fonts"
 FAMILY = "Inter"
-REGULAR, BOLD = FONTS / "Inter-Regular.otf", FONTS / "Inter-SemiBold.otf"
 
 MATHEMATICS, MATHEMATICS_SIZE = "stix", 1.12
 """Its letters are lower than Inter's: set larger, both look alike."""
-FEATURES = ("tnum",)
-"""Figures of one width: numbers that change while a stage plays do not jitter."""
 
 ASCENT, DESCENT = 0.93, 0.25
 """Room for a line of plain words, relative to its size."""
-
-DOUBT = 0.02
-"""By how much words and the spaces between them may come nearer to each other than each by itself, at each space."""
 
 Extent: TypeAlias = tuple[float, float, float]
 """Width, ascent above the baseline, descent below it."""
@@ -50,19 +43,19 @@ class Run:
 
 def measure(text: str, size: float, bold: bool = False) -> Extent:
     """The room ``text`` takes at ``size``."""
-    width, ascent, descent, *_ = _set(text, bold)
+    width, ascent, descent, _ = _set(text, bold)
     return float(width * size), float(ascent * size), float(descent * size)
 
 
 def outline(text: str, size: float, bold: bool = False) -> tuple[Floats, Indices]:
     """Vertices (n, 2), y upwards from the baseline, and matplotlib path codes."""
-    _, _, _, vertices, codes, _ = _set(text, bold)
+    vertices, codes = _outlined(text, bold)
     return vertices * size, codes
 
 
 def runs(text: str, bold: bool = False) -> tuple[Run, ...]:
     """The stretches of ``text`` and where each starts."""
-    return _set(text, bold)[5]
+    return _set(text, bold)[3]
 
 
 @lru_cache(maxsize=512)
@@ -80,23 +73,14 @@ def wrapped(text: str, size: float, width: float, bold: bool = False) -> tuple[s
 
 
 def _broken(words: list[str], size: float, width: float, bold: bool) -> tuple[str, ...]:
-    lines, about = [words[0]], _about(words[0], bold)
+    lines = [words[0]]
     for word in words[1:]:
-        longer, guess = f"{lines[-1]} {word}", about + _about(f" {word}", bold)
-        doubt = DOUBT * size * (1 + longer.count(" "))
-        is_clear = abs(guess * size - width) > doubt
-        if (guess * size if is_clear else measure(longer, size, bold)[0]) <= width:
-            lines[-1], about = longer, guess
+        longer = f"{lines[-1]} {word}"
+        if measure(longer, size, bold)[0] <= width:
+            lines[-1] = longer
         else:
             lines.append(word)
-            about = _about(word, bold)
     return tuple(line.strip() for line in lines)
-
-
-@lru_cache(maxsize=4096)
-def _about(text: str, bold: bool) -> float:
-    """The width of type of size 1, so far as it does not depend on what stands beside it."""
-    return measure(f"|{text}", 1.0, bold)[0] - measure("|", 1.0, bold)[0]
 
 
 def _words(text: str) -> list[str]:
@@ -120,34 +104,28 @@ def _pieces(text: str) -> list[tuple[str, bool]]:
     return [(part, k % 2 == 1) for k, part in enumerate(parts) if part]
 
 
-@lru_cache(maxsize=2048)
-def _set(text: str, bold: bool) -> tuple[float, float, float, Floats, Indices, tuple[Run, ...]]:
-    """Everything about a line of type of size 1."""
+@lru_cache(maxsize=16384)
+def _set(text: str, bold: bool) -> tuple[float, float, float, tuple[Run, ...]]:
+    """Width, ascent, descent and stretches of a line of type of size 1."""
     at, ascent, descent = 0.0, ASCENT, DESCENT
-    vertices: list[Floats] = [np.zeros((0, 2))]
-    codes: list[Indices] = [np.zeros(0, dtype=np.intp)]
     found: list[Run] = []
     for piece, is_math in _pieces(text):
         found.append(Run(piece, at, is_math))
-        width, up, down, v, c = _math(piece) if is_math else _plain(piece, bold)
-        vertices.append(v + np.array([at, 0.0]))
-        codes.append(c)
+        width, up, down = _math(piece)[:3] if is_math else (advance(piece, bold), ASCENT, DESCENT)
         at, ascent, descent = at + width, max(ascent, up), max(descent, down)
-    return at, ascent, descent, np.vstack(vertices), np.concatenate(codes).astype(np.uint8), tuple(found)
+    return at, ascent, descent, tuple(found)
 
 
-def _plain(text: str, bold: bool) -> tuple[float, float, float, Floats, Indices]:
-    tool = TextToPath()
-    font = get_font(_files(bold))
-    font.set_size(tool.FONT_SCALE, tool.DPI)
-    glyphs, shapes, _ = tool.get_glyphs_with_font(font, f"{text}|", features=FEATURES)
-    vertices, codes = [np.zeros((0, 2))], [np.zeros(0, dtype=np.uint8)]
-    for name, x, y, scale in glyphs[:-1]:
-        v, c = shapes[name]
-        vertices.append(np.asarray(v) * scale + np.array([x, y]))
-        codes.append(np.asarray(c))
-    width, scale = glyphs[-1][1], tool.FONT_SCALE
-    return width / scale, ASCENT, DESCENT, np.vstack(vertices) / scale, np.concatenate(codes)
+@lru_cache(maxsize=2048)
+def _outlined(text: str, bold: bool) -> Glyph:
+    """The outline of a line of type of size 1."""
+    vertices: list[Floats] = [np.zeros((0, 2))]
+    codes: list[Indices] = [np.zeros(0, dtype=np.uint8)]
+    for run in _set(text, bold)[3]:
+        v, c = _math(run.text)[3:] if run.is_math else shape(run.text, bold)
+        vertices.append(v + np.array([run.x, 0.0]))
+        codes.append(c)
+    return np.vstack(vertices), np.concatenate(codes)
 
 
 @lru_cache(maxsize=2048)
@@ -166,12 +144,6 @@ def _mathematics(text: str) -> tuple[float, float, float, Floats, Indices]:
         width / scale, (height - descent) / scale, descent / scale,
         np.asarray(vertices, dtype=float).reshape(-1, 2) / scale, np.asarray(codes, dtype=np.uint8),
     )  # fmt: skip
-
-
-@cache
-def _files(bold: bool) -> tuple[str, ...]:
-    """Inter, and a typeface that has the characters Inter lacks."""
-    return str(BOLD if bold else REGULAR), fontManager.findfont("DejaVu Sans")
 
 
 def path(text: str, size: float, bold: bool = False) -> Outline:
