@@ -2,8 +2,8 @@
 
 The first levels are kernels, one after the other.  Where the rest is deep, a table for each
 kind of face makes it at once; a small mesh has one table for everything.  Dual schemes have
-steps of their own, and tables for each kind of corner.  Schemes that have none are told in
-stages, which all of this is tested against.
+steps of their own, and tables for each kind of corner; so have those that flip edges, for each
+kind of triangle.  Schemes that have none are told in stages, which all of this is tested against.
 """
 
 from dataclasses import dataclass, replace
@@ -20,6 +20,9 @@ from subdivision.corner_steps import CornerStep, Wave
 from subdivision.kernels import Kernel, Rows, Rule, assembled, kernel
 from subdivision.later import Later, later
 from subdivision.meshes import as_mesh
+from subdivision.middle_steps import MiddleStep
+from subdivision.middle_steps import Reach as MiddleReach
+from subdivision.middle_tables import DEPTHS, MiddleTables, middle_tables
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
@@ -38,7 +41,7 @@ FACES_A_KIND, FINE_FACES_A_KIND = 6, 2_000
 SMALL, SMALL_ENOUGH = 16, 8_000
 """Control points, and points made of them, up to which one dense matrix is the fastest plan."""
 
-AnyStep: TypeAlias = Kernel | Later | CornerStep | Blocks | Rows | Step | Tables
+AnyStep: TypeAlias = Kernel | Later | CornerStep | Blocks | MiddleStep | MiddleTables | Rows | Step | Tables
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +112,8 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     rule = _rule(t, scheme)
     if isinstance(t, Topology) and scheme.corners and scheme.numbering:
         return _dual(t, scheme, scheme.corners, scheme.numbering, levels)
+    if isinstance(t, Topology) and scheme.middles:
+        return _flipping(t, scheme.middles, levels, scheme.faces_after(t, levels))
     if rule is None or not isinstance(t, Topology) or scheme.refinement is None:
         return _staged(t, scheme, levels)
     fine = scheme.refinement.faces(t, levels) if levels else 0
@@ -131,7 +136,7 @@ def _kept(step: AnyStep) -> AnyStep:
         return assembled(step)
     if isinstance(step, Later) and step.rule.size == 3:
         return assembled(kernel(step.coarse, step.rule))
-    if isinstance(step, CornerStep):
+    if isinstance(step, CornerStep | MiddleStep):
         return step.assembled()
     return Rows(step.matrix) if isinstance(step, Step) else step
 
@@ -158,6 +163,20 @@ def _dual(t: Topology, scheme: Scheme, wave: Wave, numbering: Numbering, levels:
     for _ in range(doublings):
         steps.append(corner_step := CornerStep(t, wave, numbering))
         t = corner_step.topology
+    return Plan(t, tuple(steps))
+
+
+def _flipping(t: Topology, reach: MiddleReach, levels: int, fine: int) -> Plan:
+    """Middles and flips step by step, then blocks; the first step of these is made for itself."""
+    steps: list[MiddleStep] = []
+    while len(steps) < levels:
+        step, depth = MiddleStep(t, reach), levels - len(steps)
+        if steps and depth in DEPTHS and fine > WORTH_TABLES:
+            deep = middle_tables(step, depth, at_most=fine // FINE_FACES_A_KIND)
+            if deep:
+                return Plan(deep.topology, (*steps, step, deep))
+        steps.append(step)
+        t = step.topology
     return Plan(t, tuple(steps))
 
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from subdivision.arrays import Indices, columns, constant, taken
-from subdivision.refine import Refinement, before, following
+from subdivision.arrays import Indices, columns, constant, short, taken, turned
+from subdivision.refine import Refinement, following
 from subdivision.topology import Topology
 
 
@@ -28,13 +28,33 @@ def flipped(t: Topology) -> Topology:
 
     Flipped, edge ``e`` keeps its number; the edge from corner ``h`` to its middle is ``E + h``.
     """
-    H, h, E, middle = t.n_halfedges, np.arange(t.n_halfedges), t.n_edges, t.n_vertices + t.face
+    H, h, E = t.n_halfedges, np.arange(t.n_halfedges), t.n_edges
     make = {
-        "origin": lambda: columns(t.origin, taken(middle, t.twin), middle),
-        "twin": lambda: columns(3 * taken(t.next, t.twin) + 2, 3 * t.twin + 1, 3 * before(t, t.twin)),
+        "origin": lambda: _flipped_corners(t),
+        "twin": lambda: _flipped_twins(t),
         "edge": lambda: columns(E + taken(t.next, t.twin), t.edge, E + h),
     }
     return _smooth(make, H, E + H, t.n_vertices + t.n_faces)
+
+
+def _flipped_corners(t: Topology) -> Indices:
+    V, F = t.n_vertices, t.n_faces
+    corners = np.empty((F, 3, 3), dtype=short(V + F))
+    corners[:, :, 0] = t.origin.reshape(F, 3)
+    np.add(t.twin.reshape(F, 3) // 3, V, out=corners[:, :, 1], casting="same_kind")
+    corners[:, :, 2] = np.arange(V, V + F)[:, None]
+    return corners.ravel()
+
+
+def _flipped_twins(t: Topology) -> Indices:
+    F, H = t.n_faces, t.n_halfedges
+    twins = np.empty((F, 3, 3), dtype=short(3 * H))
+    across = t.twin.reshape(F, 3).astype(twins.dtype, copy=False)
+    last = across // 3 * 3 + 2
+    twins[:, :, 0] = 3 * np.where(across == last, last - 2, across + 1) + 2
+    twins[:, :, 1] = 3 * across + 1
+    twins[:, :, 2] = 3 * turned(across, -1)
+    return twins.ravel()
 
 
 def _smooth(make: Mapping[str, Callable[[], Indices]], n_faces: int, n_edges: int, n_vertices: int) -> Topology:

@@ -43,6 +43,9 @@ class Scheme:
         Likewise of a dual scheme: what a new corner of a face holds of the corner so far ahead of it.
     numbering : Numbering, optional
         Likewise: after how many steps there is one for each old corner, and in which order.
+    middles : valence -> number, optional
+        Likewise of a scheme that gives triangles middles and flips edges: how far an old vertex goes to the mean
+        of the middles round it.
     limit : Connectivity -> Stage, optional
         Points to where they tend to.
     tangents : Topology -> (Operator, Operator), optional
@@ -59,6 +62,7 @@ class Scheme:
     reach: Callable[[int], Exact | int] | None = None
     corners: Callable[[int, int], Exact | int] | None = None
     numbering: Numbering | None = None
+    middles: Callable[[int], Exact | int] | None = None
     limit: Callable[[Connectivity], Stage] | None = None
     tangents: Callable[[Topology], tuple[Operator, Operator]] | None = None
 

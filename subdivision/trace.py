@@ -300,7 +300,7 @@ def subdivide(control: Mesh, scheme: Scheme, levels: int, *, most: int | None = 
     TopologyError
         If the scheme refuses the control object, or there is no room: for ``most`` faces, or in this machine's memory.
     """
-    is_swift = scheme.reach is not None and isinstance(control.topology, Topology)
+    is_swift = (scheme.reach or scheme.middles) and isinstance(control.topology, Topology)
     require_room(scheme, control.topology, levels, SWIFT if is_swift else STAGED, most)
     made = once(control.topology, scheme, levels)
     return Mesh(made.topology, frozen(made.apply(control.points)))

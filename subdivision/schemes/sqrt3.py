@@ -35,6 +35,11 @@ def pull(n: int) -> Exact:
     return (4 - 2 * cosine(n)) * Fraction(1, 9)
 
 
+def reach(n: int) -> Exact:
+    """How far it goes, the same way, to the mean of the middles round it."""
+    return pull(n) * Fraction(3, 2)
+
+
 def smooth_and_flip(topology: Connectivity) -> Step:
     """Insert centroids; smooth the old vertices; flip the old edges."""
     t = meshes.as_mesh(topology)
@@ -52,8 +57,7 @@ def flip_and_smooth(topology: Connectivity) -> Step:
     t = meshes.as_mesh(topology)
     V, F = t.n_vertices, t.n_faces
     fine = flipped(t)
-    reach = by_count(lambda n: pull(n) * Fraction(3, 2), t.valence)
-    smooth = mix(reach, neighbours(fine, _spokes(t))[:V], Pick(np.arange(V), V + F))
+    smooth = mix(by_count(reach, t.valence), neighbours(fine, _spokes(t))[:V], Pick(np.arange(V), V + F))
     return Step((
         _insert(t),
         Stage("flip the edges", identity(V + F), fine, np.arange(V + F), _roles(V, F, Role.ORIGINAL)),
@@ -102,5 +106,6 @@ SQRT3 = Scheme(
     refuses=meshes.refusing(meshes.refuses_non_triangles, partial(meshes.refuses_open, why=OPEN), meshes.refuses_sharp),
     tellings={"insert, smooth, flip": smooth_and_flip, "insert, flip, smooth": flip_and_smooth},
     refinement=THIRDS,
+    middles=reach,
     limit=_limit,
 )
