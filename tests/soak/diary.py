@@ -34,7 +34,7 @@ class Diary(Session):
         self._timer.timeout.disconnect()
         self.faults: list[str] = []
         self._telling: Told | None = None
-        self._digests: dict[str, list[str]] = {"undo": [], "redo": []}
+        self._digests: dict[str, list[Mapping[str, str]]] = {"undo": [], "redo": []}
         self._top: State | None = None
         self.begin()
 
@@ -65,7 +65,7 @@ class Diary(Session):
         self._telling = None
         super().rewrite(transition, *args)
         sides = {"undo": self._past, "redo": self._future}
-        self._digests = {way: [digest(_plain(each)) for each in side] for way, side in sides.items()}
+        self._digests = {way: [_digests(_plain(each)) for each in side] for way, side in sides.items()}
         self._top = self._past[-1] if self._past else None
         self.begin()
 
@@ -94,7 +94,7 @@ class Diary(Session):
         if isinstance(told.transition, str):
             self._travelled(told.transition, state)
         elif self._past and self._past[-1] is not self._top:
-            self._digests["undo"] = [*self._digests["undo"], digest(_plain(self._past[-1]))][-REMEMBERED - 1 :]
+            self._digests["undo"] = [*self._digests["undo"], _digests(_plain(self._past[-1]))][-REMEMBERED - 1 :]
             self._digests["redo"] = []
             return replace(told, is_remembered=True)
         return told
@@ -102,9 +102,11 @@ class Diary(Session):
     def _travelled(self, way: str, state: State) -> None:
         """Undone or redone: it must be what was noted when it was."""
         other = {"undo": "redo", "redo": "undo"}[way]
-        self._digests[other].append(digest(_plain(settle(self.state))))
-        if self._digests[way].pop() != digest(_plain(state)):
-            self.faults.append(f"{way} leads to another state than there was")
+        self._digests[other].append(_digests(_plain(settle(self.state))))
+        was, now = self._digests[way].pop(), _digests(_plain(state))
+        if was != now:
+            others = ", ".join(name for name in now if was[name] != now[name])
+            self.faults.append(f"{way} leads to another state than there was: {others}")
 
 
 def _plain(state: State) -> State:
@@ -130,6 +132,11 @@ def _told_again(state: State, past: list[State], future: list[State], entries: S
 
 def _in_the_room_of(kept: State, now: Options) -> State:
     return replace(kept, options=replace(kept.options, **{name: getattr(now, name) for name in NOT_UNDONE}))
+
+
+def _digests(state: State) -> Mapping[str, str]:
+    """Of every part of a state."""
+    return {each.name: digest(getattr(state, each.name)) for each in fields(state)}
 
 
 def digest(value: Any) -> str:
