@@ -4,7 +4,7 @@
 
 export SCREEN := $(or $(DISPLAY),$(WAYLAND_DISPLAY),$(filter Darwin,$(shell uname -s)))
 
-.PHONY: run test pictures words benchmarks clean
+.PHONY: run test pictures words formulas benchmarks clean
 
 run:
 	@.ci/setup run
@@ -31,6 +31,10 @@ pictures: # the README's and the manual's, drawn again by the program
 words: # every text into the catalogues of assets/languages, where what is new waits for its translation
 	@.ci/setup test
 	@.venv/bin/python -m tests.words
+
+formulas: # what the lessons' formulas look like into the table of those that are set beforehand
+	@.ci/setup test
+	@.venv/bin/python -m tests.formulas
 
 benchmarks: # how fast the engine is, beside others
 	@.ci/setup run

@@ -1,5 +1,6 @@
 """The layout of words, and what the painters make of a picture."""
 
+import json
 import re
 from dataclasses import replace
 from xml.etree import ElementTree
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 import lessons
-from app.draw import raster
+from app.draw import formulas, raster
 from app.draw.compose import compose, said
 from app.draw.depth import depth_of
 from app.draw.geometry import dashes, facets, normals
@@ -22,6 +23,7 @@ from app.draw.solid import CUBE, OCTAHEDRON
 from app.draw.type import measure, outline, runs, wrapped
 from app.draw.vector import svg
 from app.state import Options, at_stop, start, stops
+from tests.formulas import met
 
 SIZES = [(1280, 720), (1920, 1080), (3840, 2160), (800, 600)]
 BLACK, WHITE, RED, GREEN = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
@@ -87,6 +89,17 @@ def test_letters_that_join_or_run_leftwards_are_left_to_the_shaper():
     for text in ("e\u0301a", "\u05e9\u05dc\u05d5\u05dd", "1920x108", "3/(8n) "):
         placed, whole = letters(text, bold=True), list(_shaped(f"{text}{END}", bold=True))
         assert [letter[:2] for letter in placed] == [letter[:2] for letter in whole]
+
+
+def test_the_formulas_set_beforehand_are_those_of_the_lessons_as_mathtext_sets_them():
+    before = formulas.prepared()
+    assert json.loads(json.dumps(met())) == before, "the lessons' formulas have changed: make formulas"
+
+
+def test_a_table_of_another_mathtext_is_not_used(tmp_path, monkeypatch):
+    (tmp_path / "old.json").write_text('{"matplotlib": "1.0", "formulas": {"V": [1, 1, 0, [], []]}}')
+    monkeypatch.setattr(formulas, "TABLE", tmp_path / "old.json")
+    assert formulas.prepared.__wrapped__() == {}
 
 
 def test_widths_of_words_add_up_with_their_spaces():

@@ -20,13 +20,14 @@ from matplotlib.font_manager import FontEntry, FontProperties, fontManager
 from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D, Bbox
 
+from app.draw.formulas import MATHEMATICS, MATHEMATICS_SIZE
 from app.draw.layout import overlay, pane_areas
 from app.draw.letters import BOLD, FEATURES, REGULAR
 from app.draw.picture import Colour, Picture, Scene
 from app.draw.primitives import ANCHOR, RIM, Area, Plate, Primitive, Text
 from app.draw.projection import projected
 from app.draw.raster import Brush
-from app.draw.type import FAMILY, MATHEMATICS, MATHEMATICS_SIZE, measure, path, runs
+from app.draw.type import FAMILY, measure, path, runs
 
 _FILE: Any = PdfFile
 _RENDERER: Any = RendererPdf

@@ -5,31 +5,22 @@ Every painter measures with this, so that a picture breaks its lines at the same
 
 from dataclasses import dataclass
 from functools import lru_cache
-from threading import Lock
 from typing import TypeAlias
 
 import numpy as np
-from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path as Outline
-from matplotlib.textpath import TextToPath
 
+from app.draw.formulas import formula
 from app.draw.letters import Glyph, advance, shape
 from subdivision.arrays import Floats, Indices
 
 FAMILY = "Inter"
-
-MATHEMATICS, MATHEMATICS_SIZE = "stix", 1.12
-"""Its letters are lower than Inter's: set larger, both look alike."""
 
 ASCENT, DESCENT = 0.93, 0.25
 """Room for a line of plain words, relative to its size."""
 
 Extent: TypeAlias = tuple[float, float, float]
 """Width, ascent above the baseline, descent below it."""
-
-
-_one_at_a_time = Lock()
-"""The parser of mathtext is one for all threads, and remembers where it is."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +102,7 @@ def _set(text: str, bold: bool) -> tuple[float, float, float, tuple[Run, ...]]:
     found: list[Run] = []
     for piece, is_math in _pieces(text):
         found.append(Run(piece, at, is_math))
-        width, up, down = _math(piece)[:3] if is_math else (advance(piece, bold), ASCENT, DESCENT)
+        width, up, down = formula(piece)[:3] if is_math else (advance(piece, bold), ASCENT, DESCENT)
         at, ascent, descent = at + width, max(ascent, up), max(descent, down)
     return at, ascent, descent, tuple(found)
 
@@ -122,28 +113,10 @@ def _outlined(text: str, bold: bool) -> Glyph:
     vertices: list[Floats] = [np.zeros((0, 2))]
     codes: list[Indices] = [np.zeros(0, dtype=np.uint8)]
     for run in _set(text, bold)[3]:
-        v, c = _math(run.text)[3:] if run.is_math else shape(run.text, bold)
+        v, c = formula(run.text)[3:] if run.is_math else shape(run.text, bold)
         vertices.append(v + np.array([run.x, 0.0]))
         codes.append(c)
     return np.vstack(vertices), np.concatenate(codes)
-
-
-@lru_cache(maxsize=2048)
-def _math(text: str) -> tuple[float, float, float, Floats, Indices]:
-    with _one_at_a_time:
-        return _mathematics(text)
-
-
-def _mathematics(text: str) -> tuple[float, float, float, Floats, Indices]:
-    tool = TextToPath()
-    look = FontProperties(math_fontfamily=MATHEMATICS, size=tool.FONT_SCALE)
-    width, height, descent = tool.get_text_width_height_descent(f"${text}$", look, ismath=True)
-    vertices, codes = tool.get_text_path(look, f"${text}$", ismath=True)
-    scale = tool.FONT_SCALE / MATHEMATICS_SIZE
-    return (
-        width / scale, (height - descent) / scale, descent / scale,
-        np.asarray(vertices, dtype=float).reshape(-1, 2) / scale, np.asarray(codes, dtype=np.uint8),
-    )  # fmt: skip
 
 
 def path(text: str, size: float, bold: bool = False) -> Outline:

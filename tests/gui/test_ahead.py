@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 import lessons
+from app.draw import formulas
 from app.draw import type as type_
 from app.draw.compose import compose
 from app.draw.layout import overlay
@@ -24,11 +25,12 @@ def afresh(name):
 def test_what_was_got_ready_needs_no_formula_set_when_it_is_shown(window, monkeypatch):
     told = tuple(map(afresh, FORMULAS))
     monkeypatch.setattr(ahead, "built_in", lambda: told)
-    for known in (type_._set, type_._math):
+    monkeypatch.setattr(formulas, "prepared", dict)
+    for known in (type_._set, type_._outlined, formulas.formula):
         known.cache_clear()
     for piece in ahead.pieces(lambda: window.session.state, window.viewport):
         piece()
-    monkeypatch.setattr(type_, "_mathematics", lambda text: pytest.fail(f"{text} had not been set"))
+    monkeypatch.setattr(formulas, "boxed", lambda text: pytest.fail(f"{text} had not been set"))
     for lesson in told:
         state = open_lesson(window.session.state, lesson)
         for stop in stops(lesson):
