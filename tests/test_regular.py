@@ -79,6 +79,18 @@ def test_a_quad_too_concave_for_its_middle_is_cut_from_its_reflex_corner(k):
     assert np.abs(left.mean(axis=1) - right.mean(axis=1)).max() < 1e-12
 
 
+@pytest.mark.parametrize("name", CASES)
+def test_in_haste_quads_are_two_triangles_with_the_same_normals_at_their_corners(name):
+    polygons = faces(name)
+    slow, hasty = regular.facets(polygons), regular.facets(polygons, is_hasty=True)
+    size, n = polygons.sizes[0], len(slow.vertices)
+    assert len(hasty.triangles) == (size - 2) * len(polygons.sizes)
+    assert np.array_equal(hasty.points, slow.points[:n])
+    assert np.array_equal(hasty.normals, slow.normals[:n])
+    corners = hasty.vertices[hasty.triangles][np.argsort(hasty.owner, kind="stable")].reshape(len(polygons.sizes), -1)
+    assert all({*a} == {*b} for a, b in zip(corners.tolist(), polygons.corners.reshape(-1, size).tolist(), strict=True))
+
+
 def test_polygons_of_mixed_sizes_leave_the_fast_way():
     square, corner = np.array([4, 3]), np.array([0, 1, 2, 3, 0, 1, 2])
     assert regular.facets(Faces(np.eye(4, 3), square, corner, (1.0, 1.0, 1.0))) is None

@@ -37,6 +37,9 @@ WITH_SPECTRUM = 0.38
 WITH_ANSWERS = 0.72
 """The same beside answers to choose from."""
 
+CROWD = 500
+"""Beyond so many control points their markers follow the hand with fewer corners."""
+
 WIDE = 2.4
 """Width to height of what the words leave of a picture."""
 
@@ -53,7 +56,12 @@ def compose(state: State, *, is_hasty: bool = False) -> Picture:
 def is_heavy(state: State) -> bool:
     """Whether a picture made in haste is another one."""
     traces = ((state.trace(view), view.at(state.progress)) for view in state.now.views if view.kind is Kind.SCENE)
-    return any(surface.coarser(trace, at) < at for trace, at in traces)
+    return any(surface.coarser(trace, at) < at or _is_crowded(trace) for trace, at in traces)
+
+
+def _is_crowded(trace: Trace) -> bool:
+    """Whether there are many points to take hold of."""
+    return trace.control.topology.n_vertices > CROWD
 
 
 def _composed(state: State, *, is_hasty: bool) -> Picture:
@@ -227,7 +235,8 @@ def _content(
     if is_as_told:
         made = asked.asked(made, state, view, theme)
     made = surface.dressed(made, what, frame, state, view, theme)
-    made = replace(made, camera=reduce(turned, (view.look or state.now.look).turned, made.camera))
+    seen = reduce(turned, (view.look or state.now.look).turned, made.camera)
+    made = replace(made, camera=seen, is_hasty=is_hasty)
     return made, surface.values_of(state, view, what, frame)
 
 

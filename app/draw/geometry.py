@@ -28,12 +28,12 @@ def shading(faces: Faces) -> Floats:
     return _shading(faces, normals(faces))
 
 
-def facets(faces: Faces) -> Facets:
+def facets(faces: Faces, *, is_hasty: bool = False) -> Facets:
     """Triangles round the middle of every polygon: symmetric, and the same at every instant of a stage.
 
-    A triangle stays one; a polygon too concave for its middle is cut by its ears.
+    A triangle stays one; a polygon too concave for its middle is cut by its ears.  In haste many quads are cut in two.
     """
-    quick = regular.facets(faces) if len(faces.sizes) >= MANY else None
+    quick = regular.facets(faces, is_hasty=is_hasty) if len(faces.sizes) >= MANY else None
     return quick if quick is not None else any_facets(faces)
 
 

@@ -20,13 +20,14 @@ LIFT = 3.0
 """How far markers are brought forward in the z-buffer, in radii of the largest."""
 
 
-FINE, COARSE = 32, 12
-"""Corners to the outline of a ball: where markers are few and large, and where they are many and small."""
+FINE, COARSE, HASTY = 32, 12, 4
+"""Corners to the outline of a ball: where markers are few and large, where they are many and small, and where those
+must follow the hand."""
 
 
-def resolution(n: int) -> int:
+def resolution(n: int, *, is_hasty: bool = False) -> int:
     """Corners to the outline of each of ``n`` markers: the graphics card's work grows slower than their number."""
-    return int(np.clip(200 / np.sqrt(max(n, 1)), COARSE, FINE))
+    return int(np.clip(200 / np.sqrt(max(n, 1)), HASTY if is_hasty else COARSE, FINE))
 
 
 class Glyphs:
@@ -54,20 +55,21 @@ class Glyphs:
             instances.uniforms.SetUniformf("lift", LIFT * self._largest * depth)
             instances.uniforms.SetUniformf("perspective", perspective)
 
-    def show(self, markers: Sequence[Markers], *, solid: bool) -> None:
+    def show(self, markers: Sequence[Markers], *, solid: bool, is_hasty: bool = False) -> None:
         if not markers and not self.faint.actor.GetVisibility():
             return
         which = [(m.opacity >= 0.999) == solid for m in markers]
         points = [m.points[w] for m, w in zip(markers, which, strict=True)]
         radius = [m.radius[w] for m, w in zip(markers, which, strict=True)]
         colour = [vtk_arrays.rgba(m.colour, m.opacity[w]) for m, w in zip(markers, which, strict=True)]
-        some = sum(map(len, points)) > 0
+        n = sum(map(len, points))
+        corners, some = resolution(n, is_hasty=is_hasty), n > 0
         self._largest = max((float(r.max()) for r in radius if len(r)), default=0.0)
         for instances in (*self.drawn, self.faint):
             instances.actor.SetVisibility(some)
             if some:
                 faint = HIDDEN if instances is self.faint else 1.0
-                instances.model(min(resolution(sum(map(len, points))), COARSE if instances is self.faint else FINE))
+                instances.model(min(corners, COARSE) if instances is self.faint else corners)
                 instances.show(np.vstack(points), np.concatenate(radius), np.vstack(colour) * [1, 1, 1, faint])
 
 

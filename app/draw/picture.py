@@ -155,7 +155,10 @@ class Bar:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """One pane in space; ``remark`` is a sentence about it, where something asked for cannot be shown."""
+    """One pane in space; ``remark`` is a sentence about it, where something asked for cannot be shown.
+
+    One that ``is_hasty`` is drawn from fewer triangles: it lasts for as long as the hand moves.
+    """
 
     camera: Camera
     faces: tuple[Faces, ...] = ()
@@ -165,6 +168,7 @@ class Scene:
     pins: tuple[Pin, ...] = ()
     bar: Bar | None = None
     remark: str = ""
+    is_hasty: bool = False
 
 
 @dataclass(frozen=True)

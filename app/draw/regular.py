@@ -70,7 +70,7 @@ _known: list[_Known] = []
 NONE: Indices = np.zeros(0, dtype=np.intp)
 
 
-def facets(faces: Faces) -> Facets | None:
+def facets(faces: Faces, *, is_hasty: bool = False) -> Facets | None:
     """As ``app.draw.geometry.facets``; None where polygons differ in size."""
     known = _recalled(faces)
     if known is None:
@@ -79,13 +79,15 @@ def facets(faces: Faces) -> Facets | None:
     corners = [places[:, column] for column in known.columns]
     area = _areas(corners)
     darts, turn = _darts(corners, area) if len(corners) == 4 else (NONE, NONE)
+    if is_halved := is_hasty and len(corners) == 4:
+        darts, turn = _halved(darts, turn, area.shape[1])
     own = _unit(area, otherwise=(0.0, 0.0, 1.0))
     mean = _unit(np.stack([known.gather @ each for each in own]))
     split = _split(known.columns, own, mean)
     known.last = cut = _cut(known, split, darts, turn)
     shades = [mean, _blended(known, split, own, mean)]
     points = [places, places[:, known.columns.ravel()[split]]]
-    if len(corners) == 4:
+    if len(corners) == 4 and not is_halved:
         shades.append(own)
         points.append(sum(corners[1:], start=corners[0]) / 4)
     return Facets(np.hstack(points).T, np.hstack(shades).T, cut.triangles, cut.vertices, cut.owner)
@@ -126,6 +128,13 @@ def _darts(corners: list[Floats], area: Floats) -> tuple[Indices, Indices]:
     least = np.minimum(np.minimum(parts[0], parts[1]), np.minimum(parts[2], parts[3]))
     found = np.flatnonzero(least < -1e-12 * max(float((before + whole).max()), 0.0))
     return found, (np.minimum(before, whole)[found] < 0).astype(np.intp)
+
+
+def _halved(darts: Indices, turn: Indices, n: int) -> tuple[Indices, Indices]:
+    """All of ``n`` quads cut as darts are: along a diagonal."""
+    turns: Indices = np.zeros(n, dtype=np.intp)
+    turns[darts] = turn
+    return np.arange(n), turns
 
 
 def _split(columns: Indices, own: Floats, mean: Floats) -> Indices:

@@ -56,11 +56,11 @@ class ScenePainter:
         point = height / 1000
         self.renderer.SetUseDepthPeeling(any(f.opacity < 1 for f in scene.faces))
         for faces, surface in _pooled(scene.faces, self._faces, _Surface, self.renderer):
-            surface.show(faces)
+            surface.show(faces, is_hasty=scene.is_hasty)
         for lines, strokes in _pooled(scene.lines, self._lines, _Strokes, self.renderer):
             strokes.show(dashes(lines, dash_of(scene.camera)) if lines.dashed else lines, lines.width * point)
         for (shape, solid), glyphs in self._markers.items():
-            glyphs.show([m for m in scene.markers if m.shape is shape], solid=solid)
+            glyphs.show([m for m in scene.markers if m.shape is shape], solid=solid, is_hasty=scene.is_hasty)
 
     def look(self, camera: Camera, window: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> None:
         """Stand where ``camera`` stands.
@@ -140,8 +140,8 @@ class _Surface:
         finish(self.actor, ambient=SURFACE_LIGHT[0], diffuse=SURFACE_LIGHT[1], specular=0.0)
         renderer.AddViewProp(self.actor)
 
-    def show(self, faces: Faces) -> None:
-        cut = facets(faces)
+    def show(self, faces: Faces, *, is_hasty: bool) -> None:
+        cut = facets(faces, is_hasty=is_hasty)
         self.data.SetPoints(vtk_arrays.points(cut.points))
         self.data.GetPointData().SetNormals(vtk_arrays.array(cut.normals))
         if cut.triangles is not self._cut:
