@@ -43,7 +43,7 @@ class Faults(QObject):
 
     def __init__(self, window: Window, log: Path, more: Mapping[str, str]) -> None:
         super().__init__()
-        self._window, self._log, self._versions = window, log, versions(more)
+        self._window, self._log, self._more = window, log, more
         self._counts: dict[str, int] = {}
         self._new: list[Report] = []
         self._last: Report | None = None
@@ -96,7 +96,7 @@ class Faults(QObject):
         if new and not self.dialog.isVisible():
             self.dialog.begin()
         if self.dialog.isVisible():
-            self.dialog.tell(new, self._counts, self._versions)
+            self.dialog.tell(new, self._counts, versions(self._more))
         else:
             count = self._counts[last.place]
             self._window.say(

@@ -133,7 +133,8 @@ def dress(app: QApplication, theme: Theme) -> None:
     """Give the whole program the colours of a theme."""
     app.setFont(type_face(14))
     app.setPalette(palette(theme))
-    app.setStyleSheet(sheet(theme))
+    if (wanted := sheet(theme)) != app.styleSheet():  # Qt would go through every widget again
+        app.setStyleSheet(wanted)
 
 
 def palette(theme: Theme) -> QPalette:
