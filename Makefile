@@ -36,6 +36,10 @@ formulas: # what the lessons' formulas look like into the table of those that ar
 	@.ci/setup test
 	@.venv/bin/python -m tests.formulas
 
+strength: # every hostile file, every fault and 20,000 actions, in full: takes an hour and a half
+	@.ci/setup test
+	@.ci/strength
+
 benchmarks: # how fast the engine is, beside others
 	@.ci/setup run
 	@.venv/bin/python -m benchmarks

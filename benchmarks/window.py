@@ -232,14 +232,16 @@ def start() -> None:
 
 def program() -> None:
     """The window as the command opens it, until its first picture is on the screen."""
+    from PySide6.QtCore import QTimer
+
     from app.cli import main
     from app.gui import viewport
 
     begun = viewport.Viewport.start
 
     def start(self: Any) -> None:
-        begun(self)
-        self._plotter.frameSwapped.connect(_seen)
+        begun(self)  # what is drawn is on the screen when Qt has painted it
+        self._plotter.render_window.AddObserver("EndEvent", lambda *_: QTimer.singleShot(0, _seen))
 
     viewport.Viewport.start = start  # type: ignore[method-assign]
     main([])

@@ -8,7 +8,6 @@ import signal
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from functools import cache
 from pathlib import Path
 
 from app.words import LANGUAGES, SYSTEM, speak, system_language
@@ -23,7 +22,7 @@ from PySide6.QtCore import (
     qInstallMessageHandler,
     qVersion,
 )
-from PySide6.QtGui import QGuiApplication, QOffscreenSurface, QOpenGLContext, QSurfaceFormat
+from PySide6.QtGui import QGuiApplication, QSurfaceFormat
 from PySide6.QtWidgets import QApplication
 
 from app.asking import toggle_asking
@@ -34,6 +33,7 @@ from app.gui.ahead import Ahead
 from app.gui.autosave import Autosave, folder
 from app.gui.fault import Faults
 from app.gui.look import system_theme
+from app.gui.opengl import has_opengl, opengl
 from app.gui.session import Session
 from app.gui.window import NAME, Window
 from app.log import LOG, keep_log
@@ -41,7 +41,6 @@ from app.state import Options, State, choose, open_lesson, start
 from lessons import all_lessons
 from lessons.script import Lesson
 
-GL_RENDERER, GL_VERSION = 0x1F01, 0x1F02
 NO_SCREEN = (
     "there is no screen to open the window on (DISPLAY and WAYLAND_DISPLAY lead nowhere). "
     "'subdivision-studio figures' draws the lessons to files without one."
@@ -192,26 +191,6 @@ def _has_x11() -> bool:
     failed = bool(xcb.xcb_connection_has_error(connection))
     xcb.xcb_disconnect(connection)
     return not failed
-
-
-def has_opengl() -> bool:
-    """Whether the screen offers the OpenGL that VTK needs."""
-    return opengl()[0] >= (3, 2)
-
-
-@cache
-def opengl() -> tuple[tuple[int, int], str]:
-    """The version of OpenGL that the screen offers, (0, 0) if none; and who makes it, in its own words."""
-    context = QOpenGLContext()
-    surface = QOffscreenSurface()
-    surface.create()
-    if not context.create() or not context.makeCurrent(surface):
-        return (0, 0), "none"
-    functions = context.functions()
-    words = ", ".join(str(functions.glGetString(which)) for which in (GL_RENDERER, GL_VERSION))
-    major, minor = context.format().version()
-    context.doneCurrent()
-    return (major, minor), words
 
 
 def _refuse(sentence: str) -> int:

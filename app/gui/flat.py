@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QRegion
+from PySide6.QtGui import QPainter, QPaintEvent, QPixmap, QRegion, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from app.draw.layout import extent
@@ -27,6 +27,7 @@ class Flat(QWidget):
         self._below = below
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self._shown: tuple[Primitive, ...] = ()
+        self._sheet, self._stale = QPixmap(), QRegion()
         self._lens: QPointF | None = None
         self._is_blank = False
 
@@ -34,17 +35,42 @@ class Flat(QWidget):
         """Show these from now on, twice as large about ``lens``, if there is one."""
         was, self._shown = self._shown, tuple(shown)
         looks, self._lens, self._is_blank = (self._lens, self._is_blank), lens, is_blank
-        if looks == (lens, is_blank) == (None, False):
-            self.update(changed(was, self._shown) + QRect(0, 0, 1, 1))  # at least so much, to be called for the rest
-        else:
-            self.update()
+        is_usual = looks == (lens, is_blank) == (None, False)
+        new = changed(was, self._shown) if is_usual else QRegion(self.rect())
+        self._stale += new
+        self.update(new + QRect(0, 0, 1, 1))  # at least so much, to be called for the rest
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._sheet = QPixmap()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         self._below()
-        painter, where = QPainter(self), event.region()
+        painter = QPainter(self)
         if self._is_blank:
             painter.fillRect(self.rect(), Qt.GlobalColor.black)
-        elif self._lens is not None:
+        else:
+            self._renew()
+            painter.drawPixmap(0, 0, self._sheet)
+        painter.end()
+
+    def _renew(self) -> None:
+        """Paint on the sheet what has changed."""
+        scale = self.devicePixelRatioF()
+        if self._sheet.isNull() or self._sheet.devicePixelRatio() != scale:
+            self._sheet = QPixmap(self.size() * scale)
+            self._sheet.setDevicePixelRatio(scale)
+            self._sheet.fill(Qt.GlobalColor.transparent)
+            self._stale = QRegion(self.rect())
+        if self._stale.isEmpty():
+            return
+        painter, where = QPainter(self._sheet), self._stale
+        self._stale = QRegion()
+        painter.setClipRegion(where)
+        painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_Clear)
+        painter.fillRect(where.boundingRect(), Qt.GlobalColor.transparent)
+        painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_SourceOver)
+        if self._lens is not None:
             painter.translate(self._lens * (1 - MAGNIFICATION))
             painter.scale(MAGNIFICATION, MAGNIFICATION)
             paint(painter, self._shown)

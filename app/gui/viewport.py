@@ -26,6 +26,7 @@ from app.gui.grip import AXES, Grip
 from app.gui.lens import MAGNIFICATION, WHOLE, enlarged, window, within
 from app.gui.look import colour
 from app.gui.narration import Narration
+from app.gui.opengl import is_software
 from app.gui.pointer import Pointer
 from app.gui.pointing import nearest, part
 from app.gui.predicting import predicted
@@ -74,8 +75,8 @@ class Viewport(QWidget):
         self._lens: QPointF | None = None
         self._plotter: Any = None
         self._painters: list[Any] = []
-        self._is_soft = True
-        self._empty = QOpenGLWidget(self)  # makes the window one for OpenGL from the start, so that it never flickers
+        self._is_soft = is_software()
+        self.canvas: Any = QWidget(self) if self._is_soft else QOpenGLWidget(self)
         self._flat = Flat(self, self._draw)
         self._is_stale = self._is_hasty = False
         self.narration = Narration(session, self)
@@ -96,28 +97,36 @@ class Viewport(QWidget):
         from pyvistaqt import QtInteractor
 
         from app.draw.vtk import ScenePainter
+        from app.gui.canvas import Canvas
 
         self._plotter = QtInteractor(
-            self, auto_update=False, multi_samples=0, shape=(1, PANES + 1), border=False, lighting="none"
-        )
+            None if self._is_soft else self,
+            auto_update=False, multi_samples=0 if self._is_soft else SAMPLES, shape=(1, PANES + 1), border=False,
+            lighting="none",
+        )  # fmt: skip
         self._plotter.setAcceptDrops(False)
-        self._plotter.setAccessibleName(tr("Picture"))
-        self._plotter.installEventFilter(self)
         self._painters = [ScenePainter(self._plotter, 1 + k) for k in range(PANES)]
         self._plotter.renderers[0].SetViewport(0, 0, 1, 1)  # clears what no pane covers
-        self._plotter.setGeometry(self.rect())
-        self._plotter.show()
-        self._plotter.lower()
-        self._empty.hide()
-        self._empty.deleteLater()
+        self._put_up(Canvas(self, self._plotter) if self._is_soft else self._plotter)
         self.show_state(self._state)
+
+    def _put_up(self, canvas: QWidget) -> None:
+        """Show the picture in space here from now on, and take its input."""
+        waiting, self.canvas = self.canvas, canvas
+        canvas.setAccessibleName(tr("Picture"))
+        canvas.installEventFilter(self)
+        canvas.setGeometry(self.rect())
+        canvas.show()
+        canvas.lower()
+        waiting.hide()
+        waiting.deleteLater()
 
     def close_vtk(self) -> None:
         """Give everything back, in the order VTK needs."""
         self._calm.stop()
         self._still.stop()
         if self._plotter is not None:
-            self._plotter.removeEventFilter(self)
+            self.canvas.removeEventFilter(self)
             for each in self._painters:
                 each.close()
             self._painters = []
@@ -196,7 +205,7 @@ class Viewport(QWidget):
         self.narration.setGeometry(0, self.height() - tall, self.width(), tall)
         self._flat.setGeometry(self.rect())
         self.pointer.setGeometry(self.rect())
-        (self._plotter or self._empty).setGeometry(self.rect())
+        self.canvas.setGeometry(self.rect())
 
     def _paint_scenes(self) -> None:
         if self._plotter is not None:
@@ -255,11 +264,18 @@ class Viewport(QWidget):
             if self._is_soft:
                 self._draw_at(samples=0, is_hasty=True)
                 self._calm.start()
-            self._is_stale = True
+            self._refresh()
         is_between = self._state.is_playing and self._state.at != int(self._state.at)
         self._kept = self._kept if is_between else Kept()
         flat = overlay(self._picture, self.width(), self._tall(), cameras=self.cameras(), words=False, kept=self._kept)
         self._flat.lay(flat, self._lens, is_blank=self._state.options.blank)
+
+    def _refresh(self) -> None:
+        """What is in space has changed."""
+        if self._is_soft:
+            self.canvas.refresh(self._tall())
+        else:
+            self._is_stale = True
 
     def _draw(self) -> None:
         """What is in space, if it has changed."""
@@ -274,9 +290,11 @@ class Viewport(QWidget):
 
     def _smooth(self) -> None:
         if self._plotter is not None and not self._state.is_playing and not self._is_drag:
-            self._is_soft = _is_software(self._plotter.render_window)
             self._draw_at(samples=SAMPLES // 2 if self._is_soft else SAMPLES, is_hasty=False)
-            self._plotter.update()
+            if self._is_soft:
+                self.canvas.refresh(self._tall())
+            else:
+                self._plotter.update()
 
     def _draw_at(self, *, samples: int, is_hasty: bool) -> None:
         """How well the picture is drawn from now on."""
@@ -325,7 +343,7 @@ class Viewport(QWidget):
         self._press = self._last = event.position()
         self._is_drag = False
         self._grip = self._gripped(event) if event.button() == Qt.MouseButton.LeftButton else None
-        self._plotter.setFocus(Qt.FocusReason.MouseFocusReason)
+        self.canvas.setFocus(Qt.FocusReason.MouseFocusReason)
 
     def _gripped(self, event: QMouseEvent) -> Grip | None:
         """The control point under the mouse, in the hand."""
@@ -466,9 +484,3 @@ class Viewport(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         QPainter(self).fillRect(self.rect(), colour(self._picture.background))
-
-
-def _is_software(render_window: Any) -> bool:
-    """Whether the processor draws, slowly, and no graphics card."""
-    report = render_window.ReportCapabilities().lower()
-    return any(name in report for name in ("llvmpipe", "softpipe", "swrast", "swiftshader", "software"))

@@ -43,7 +43,7 @@ def on_edge(window, e, along=0.5):
 
 
 def click(window, place, modifiers=Qt.KeyboardModifier.NoModifier):
-    QTest.mouseClick(window.viewport._plotter, Qt.MouseButton.LeftButton, modifiers, pos=screen(window, place))
+    QTest.mouseClick(window.viewport.canvas, Qt.MouseButton.LeftButton, modifiers, pos=screen(window, place))
 
 
 def press(window, key, modifiers=Qt.KeyboardModifier.NoModifier):

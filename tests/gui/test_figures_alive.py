@@ -69,9 +69,9 @@ def test_pointing_at_a_box_lights_its_parents_and_says_its_row(window, qtbot):
         return found[1] if found else None
 
     place = next(p for p in spots if box_at(p) == target)
-    QTest.mouseMove(viewport._plotter, QPointF(2, 2).toPoint())  # it may have been left at the place itself
+    QTest.mouseMove(viewport.canvas, QPointF(2, 2).toPoint())  # it may have been left at the place itself
     qtbot.wait(50)
-    QTest.mouseMove(viewport._plotter, QPointF(*place).toPoint())
+    QTest.mouseMove(viewport.canvas, QPointF(*place).toPoint())
     qtbot.waitUntil(lambda: window.session.state.focus is not None, timeout=10_000)
     focus = window.session.state.focus
     assert (focus.stage, focus.point) == (target.stage, target.point)
@@ -117,10 +117,10 @@ def test_six_linked_panes_turn_together(window):
     window.session.do(last)
     assert len(window.viewport._picture.panes) == 6
     before = window.viewport.cameras()
-    centre = window.viewport._plotter.rect().center()
-    QTest.mousePress(window.viewport._plotter, Qt.MouseButton.LeftButton, pos=centre)
-    QTest.mouseMove(window.viewport._plotter, centre + QPointF(80, 20).toPoint())
-    QTest.mouseRelease(window.viewport._plotter, Qt.MouseButton.LeftButton, pos=centre + QPointF(80, 20).toPoint())
+    centre = window.viewport.canvas.rect().center()
+    QTest.mousePress(window.viewport.canvas, Qt.MouseButton.LeftButton, pos=centre)
+    QTest.mouseMove(window.viewport.canvas, centre + QPointF(80, 20).toPoint())
+    QTest.mouseRelease(window.viewport.canvas, Qt.MouseButton.LeftButton, pos=centre + QPointF(80, 20).toPoint())
     after = window.viewport.cameras()
     assert all(abs(a.position - b.position).max() > 1e-3 for a, b in zip(before, after, strict=True))
     assert all(abs(a.position - after[0].position).max() < 1e-12 for a in after)

@@ -239,7 +239,7 @@ def test_the_end_asks_about_what_is_not_saved(window, tmp_path, monkeypatch):
 
 
 def test_a_turn_of_the_camera_is_one_change_to_undo(qtbot, window):
-    widget, before = window.viewport._plotter, window.viewport.cameras()[0].position
+    widget, before = window.viewport.canvas, window.viewport.cameras()[0].position
     QTest.mousePress(widget, Qt.MouseButton.LeftButton, pos=QPoint(60, 80))
     for k in range(1, 6):
         QTest.mouseMove(widget, QPoint(60 + 12 * k, 80 + 4 * k))

@@ -44,8 +44,8 @@ def test_why_the_cubes_corner_moves_to_five_ninths_is_found_from_the_window_alon
     x, y, w, h = window.viewport.areas()[0]
     flat = window.viewport.cameras()[0].project(trace.points[-1][5], w, h)[0]
     place = QPoint(round(x + flat[0]), round(y + flat[1]))
-    QTest.mouseMove(window.viewport._plotter, place)
-    QTest.mouseClick(window.viewport._plotter, Qt.MouseButton.LeftButton, pos=place)
+    QTest.mouseMove(window.viewport.canvas, place)
+    QTest.mouseClick(window.viewport.canvas, Qt.MouseButton.LeftButton, pos=place)
     words = window.why._words.text()
     assert "v5" in words
     for weight in ("15/36", "6/36", "1/36"):

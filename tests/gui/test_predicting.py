@@ -39,7 +39,7 @@ def onward(qtbot, window, times=1):
 
 
 def click(window, x, y):
-    QTest.mouseClick(window.viewport._plotter, Qt.MouseButton.LeftButton, pos=QPoint(round(x), round(y)))
+    QTest.mouseClick(window.viewport.canvas, Qt.MouseButton.LeftButton, pos=QPoint(round(x), round(y)))
 
 
 def seen(window, place, pane=0):
@@ -98,8 +98,8 @@ def test_two_clicks_in_a_row_are_two_predictions_and_leave_the_view(qtbot, cube)
     onward(qtbot, cube, 4)
     cube.session.do(turn_view, Turn(around=0.2))
     click(cube, 300, 200)
-    QTest.mouseDClick(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=QPoint(300, 200))
-    QTest.mouseRelease(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=QPoint(300, 200))
+    QTest.mouseDClick(cube.viewport.canvas, Qt.MouseButton.LeftButton, pos=QPoint(300, 200))
+    QTest.mouseRelease(cube.viewport.canvas, Qt.MouseButton.LeftButton, pos=QPoint(300, 200))
     assert len(cube.session.state.predicted) == 2
     assert cube.session.state.turn == Turn(around=0.2)
 

@@ -22,7 +22,7 @@ Key = Qt.Key
 
 def move(window, x, y):
     """The mouse, without a button, over the picture."""
-    plotter, none = window.viewport._plotter, Qt.MouseButton.NoButton
+    plotter, none = window.viewport.canvas, Qt.MouseButton.NoButton
     at = QPointF(x, y)
     event = QMouseEvent(QEvent.Type.MouseMove, at, plotter.mapToGlobal(at), none, none, Qt.KeyboardModifier.NoModifier)
     QApplication.sendEvent(plotter, event)
@@ -76,7 +76,7 @@ def test_the_light_follows_the_mouse_and_leaves_no_trace(qtbot, window, presents
     qtbot.waitUntil(lambda: not window.viewport.pointer._trail, timeout=1000)
     assert reddish(window, 80, 80) > 200
     assert reddish(window, 120, 80) < 40
-    QApplication.sendEvent(window.viewport._plotter, QEvent(QEvent.Type.Leave))
+    QApplication.sendEvent(window.viewport.canvas, QEvent(QEvent.Type.Leave))
     assert reddish(window, 120, 80) > 200
     press(window, Key.Key_F2)
     move(window, 120, 80)

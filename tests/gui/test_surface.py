@@ -73,7 +73,7 @@ def test_every_switch_has_a_key_and_a_tooltip(net, option, key):
 
 def test_pointing_at_a_control_point_spreads_its_influence(net, qtbot):
     trace = net.session.state.trace(net.session.state.now.lead)
-    QTest.mouseMove(net.viewport._plotter, seen(net, trace.control.points)[12])
+    QTest.mouseMove(net.viewport.canvas, seen(net, trace.control.points)[12])
     qtbot.waitUntil(lambda: picture(net).bar is not None, timeout=2000)
     assert picture(net).bar.title == "Influence of v12"
     assert net.session.state.focus == st.Spot(0, 0, 12)
@@ -85,10 +85,10 @@ def test_a_click_picks_whose_basis_function_it_is_and_hovering_changes_nothing(n
     assert "v12" in middle.bar.title
     trace = net.session.state.trace(net.session.state.now.lead)
     places = seen(net, basis.graph(trace, 12).control.points)
-    QTest.mouseMove(net.viewport._plotter, places[7])
+    QTest.mouseMove(net.viewport.canvas, places[7])
     qtbot.wait(20)
     assert "v12" in picture(net).bar.title
-    QTest.mouseClick(net.viewport._plotter, Qt.MouseButton.LeftButton, pos=places[7])
+    QTest.mouseClick(net.viewport.canvas, Qt.MouseButton.LeftButton, pos=places[7])
     assert "v7" in picture(net).bar.title
     heights = basis.heights(trace, picture(net).faces[0].points)
     assert np.abs(heights - trace.whole.matrix.toarray()[:, 7]).max() < 1e-12

@@ -24,7 +24,7 @@ def seen(window, vertex):
 
 
 def send(window, kind, at, buttons):
-    plotter = window.viewport._plotter
+    plotter = window.viewport.canvas
     button = Qt.MouseButton.NoButton if kind == QEvent.Type.MouseMove else Qt.MouseButton.LeftButton
     where = QPointF(at)
     event = QMouseEvent(kind, where, plotter.mapToGlobal(where), button, buttons, Qt.KeyboardModifier.NoModifier)
@@ -37,13 +37,13 @@ def dragged(window, qtbot, by, key=None):
     send(window, QEvent.Type.MouseButtonPress, here, held)
     if key:
         none = Qt.KeyboardModifier.NoModifier
-        QApplication.sendEvent(window.viewport._plotter, QKeyEvent(QEvent.Type.KeyPress, key, none))
+        QApplication.sendEvent(window.viewport.canvas, QKeyEvent(QEvent.Type.KeyPress, key, none))
     for part in (0.3, 0.6, 1.0):
         send(window, QEvent.Type.MouseMove, here + QPoint(*(round(part * b) for b in by)), held)
         qtbot.wait(5)
     send(window, QEvent.Type.MouseButtonRelease, here + QPoint(*by), Qt.MouseButton.NoButton)
     if key:
-        QApplication.sendEvent(window.viewport._plotter, QKeyEvent(QEvent.Type.KeyRelease, key, none))
+        QApplication.sendEvent(window.viewport.canvas, QKeyEvent(QEvent.Type.KeyRelease, key, none))
 
 
 @pytest.fixture
@@ -88,12 +88,12 @@ def test_a_drag_with_a_letter_held_stays_on_that_axis(cube, qtbot, key, axis):
 
 def test_a_double_click_puts_the_point_back(cube, qtbot):
     dragged(cube, qtbot, (60, -40))
-    QTest.mouseDClick(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
+    QTest.mouseDClick(cube.viewport.canvas, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
     assert cube.session.state.edits == ()
 
 
 def test_the_keys_1_to_4_read_the_point_across_a_stage_a_step_all_levels_or_to_the_limit(cube, qtbot):
-    QTest.mouseClick(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
+    QTest.mouseClick(cube.viewport.canvas, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
     said = []
     keys = (Qt.Key.Key_1, Qt.Key.Key_2, Qt.Key.Key_3, Qt.Key.Key_4)
     for key, across in zip(keys, cube.why.across.buttons, strict=True):
@@ -106,7 +106,7 @@ def test_the_keys_1_to_4_read_the_point_across_a_stage_a_step_all_levels_or_to_t
 
 
 def test_typed_coordinates_move_the_control_point_and_leave_the_others_exact(cube, qtbot):
-    QTest.mouseClick(cube.viewport._plotter, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
+    QTest.mouseClick(cube.viewport.canvas, Qt.MouseButton.LeftButton, pos=seen(cube, VERTEX))
     assert cube.why.place.isVisible()
     box = cube.why.place.boxes[2]
     box.setFocus()

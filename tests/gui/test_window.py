@@ -12,8 +12,10 @@ from PySide6.QtWidgets import QApplication
 
 from app.draw.theme import THEMES
 from app.gui.keys import COMMANDS, spelled_keys
+from app.gui.session import Session
 from app.gui.sheets import rows
-from app.state import axis_of, choose, forward, open_lesson, seek, segments, stops, toggle, turn_view
+from app.gui.window import Window
+from app.state import axis_of, choose, forward, last, open_lesson, seek, segments, start, stops, toggle, turn_view
 from lessons import all_lessons
 from subdivision import shapes
 
@@ -39,7 +41,7 @@ def values(state):
 
 
 def focus(window, where):
-    target = {"viewport": window.viewport._plotter, "list": window.contents.list, "search": window.contents.search}[
+    target = {"viewport": window.viewport.canvas, "list": window.contents.list, "search": window.contents.search}[
         where
     ]
     target.setFocus()
@@ -241,12 +243,12 @@ def test_pointing_at_a_vertex_tells_how_it_is_made(qtbot, window):
     corner = window.session.state.now.lead.trace.points[3][7]
     x, y, _ = camera.project(corner, area[2], area[3])[0]
     at = QPoint(round(area[0] + x), round(area[1] + y))
-    QTest.mouseMove(window.viewport._plotter, at)
+    QTest.mouseMove(window.viewport.canvas, at)
     assert window.session.state.focus.point == 7
     words = window.why._words.text()
     assert "27/48" in words
     assert "6/48" in words
-    QTest.mouseMove(window.viewport._plotter, QPoint(5, 5))
+    QTest.mouseMove(window.viewport.canvas, QPoint(5, 5))
     assert window.session.state.focus is None
     assert "Point at a vertex" in window.why._words.text()
 
@@ -258,7 +260,7 @@ def test_where_points_are_on_their_way_the_hand_turns_the_view(window):
     camera, area = view.cameras()[0], view.areas()[0]
     for x, y, _ in camera.project(state.now.lead.trace.frame(state.at).points, area[2], area[3]):
         turn, at = window.session.state.turn, QPoint(round(area[0] + x), round(area[1] + y))
-        drag(view._plotter, at, at + QPoint(20, 10))
+        drag(view.canvas, at, at + QPoint(20, 10))
         assert window.session.state.turn != turn
         window.session.do(turn_view, turn)
     assert window.session.state.edits == ()
@@ -266,7 +268,7 @@ def test_where_points_are_on_their_way_the_hand_turns_the_view(window):
 
 
 def test_dragging_turns_space_and_pans_the_plane_and_a_double_click_undoes_it(window):
-    widget = window.viewport._plotter
+    widget = window.viewport.canvas
     before = window.viewport.cameras()[0]
     drag(widget, QPoint(100, 300), QPoint(180, 330))
     turned = window.viewport.cameras()[0]
@@ -296,6 +298,30 @@ def test_nothing_is_drawn_while_nothing_happens(qtbot, window):
     qtbot.wait(600)
     window.viewport._plotter.render_window.RemoveObserver(tag)
     assert 1 <= len(drawn) <= 2  # once plain, once smooth
+
+
+def test_a_picture_is_the_same_whether_it_is_copied_into_the_window_or_put_there_by_opengl(
+    qtbot, lesson, settings, monkeypatch
+):
+    pictures = []
+    for is_soft, samples in ((True, 8), (False, 4)):  # the former has half of them
+        monkeypatch.setattr("app.gui.viewport.is_software", lambda is_soft=is_soft: is_soft)
+        monkeypatch.setattr("app.gui.viewport.SAMPLES", samples)
+        other = Window(Session(start(lesson)), settings)
+        other.resize(1280, 720)
+        other.show()
+        qtbot.waitExposed(other)
+        other.viewport.start()
+        assert (other.viewport.canvas is other.viewport._plotter) is not is_soft
+        other.session.do(last)
+        qtbot.wait(800)
+        shown = other.viewport.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+        rows = np.frombuffer(shown.constBits(), np.uint8).reshape(shown.height(), shown.bytesPerLine())
+        pictures.append(rows[:, : 3 * shown.width()].astype(int))
+        other.close()
+        other.deleteLater()
+    assert np.ptp(pictures[0]) > 100
+    assert np.abs(pictures[0] - pictures[1]).max() <= 2
 
 
 @pytest.mark.parametrize("theme", ["light", "dark", "projector"])

@@ -1,6 +1,6 @@
 """All hostile files, then every reader fuzzed: ``python -m tests.hostile --minutes 10``, so many for each reader.
 
-The fuzzer is atheris (``pip install atheris``); without it only the files are read.
+The fuzzer is atheris (``pip install .[strength]``); without it only the files are read.
 """
 
 import argparse
@@ -25,7 +25,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         found = read_all(Path(folder))
     if find_spec("atheris") is None:
-        print("readers not fuzzed: pip install atheris")
+        print("readers not fuzzed: pip install .[strength]")
         return 1
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         found += sum(pool.map(lambda suffix: fuzzed(suffix, round(60 * options.minutes)), files.READABLE))

@@ -242,7 +242,7 @@ def _dragged(hand: Hand, start: QPoint, stop: QPoint, steps: int, button: Qt.Mou
 
 @often(3)
 def wheel(hand: Hand, rng: Random) -> Steps:
-    at, view = hand.in_view(rng), hand.window.viewport._plotter
+    at, view = hand.in_view(rng), hand.window.viewport.canvas
     here = QPointF(view.mapFrom(hand.window, at))
     for _ in range(rng.randrange(1, 5)):
         turn = QPoint(0, rng.choice((-240, -120, -15, 15, 120, 240)))
