@@ -58,8 +58,7 @@ def spread(diagram: Diagram, area: Area, unit: float, most: float = LARGEST) -> 
     """
     found: list[tuple[int, Spread]] = []
     for size in [*np.arange(most, LEAST, -1.0).tolist(), LEAST]:
-        fit = _aside(diagram, _spread(diagram, area, unit, size))
-        crossed = int(_crossed(diagram, fit).sum())
+        fit, crossed = _aside(diagram, _spread(diagram, area, unit, size))
         if _is_clear(fit):
             found.append((crossed, fit))
             if crossed == 0:
@@ -147,45 +146,51 @@ def _cell(places: Floats, low: Floats, high: Floats, room: float) -> float:
 
 def _is_clear(fit: Spread) -> bool:
     """Whether no words meet a dot or other words."""
-    words, gap = fit.words[_written(fit)], 0.5 * GAP * fit.unit
+    words, gap = fit.words[_written(fit.words)], 0.5 * GAP * fit.unit
     low, high = words[:, :2] - gap, words[:, 2:] + gap
     meet = ((low[:, None] < high[None]) & (low[None] < high[:, None])).all(axis=2)
-    return not _meets(fit).any() and bool(meet.sum() == len(words))
+    return not _meets(fit, words).any() and bool(meet.sum() == len(words))
 
 
-def _aside(diagram: Diagram, fit: Spread) -> Spread:
-    """Words that a link runs through stand further off their dot, if that frees them."""
+def _aside(diagram: Diagram, fit: Spread) -> tuple[Spread, int]:
+    """Words that a link runs through stand further off their dot, if that frees them; and how many it does not free."""
     way = np.array([d.way for d in diagram.dots])
-    crossed, words = _crossed(diagram, fit), fit.words.copy()
+    words, along = fit.words.copy(), _along(diagram, fit)
+    crossed = np.flatnonzero(_crossed(fit, words, along))
     for step in np.arange(1.0, FURTHER, 2.0) * fit.unit:
-        moved = replace(fit, words=fit.words + step * np.hstack([way, way]))
-        free = crossed & ~_crossed(diagram, moved) & ~_meets(moved)
-        words[free] = moved.words[free]
-        crossed &= ~free
-    return replace(fit, words=words)
+        if not len(crossed):
+            break
+        moved = fit.words[crossed] + step * np.hstack([way, way])[crossed]
+        free = ~_crossed(fit, moved, along) & ~_meets(fit, moved)
+        words[crossed[free]] = moved[free]
+        crossed = crossed[~free]
+    return replace(fit, words=words), len(crossed)
 
 
-def _meets(fit: Spread) -> Mask:
-    """(n_dots,) bool: words over a dot."""
-    near = np.clip(fit.at[None], fit.words[:, None, :2], fit.words[:, None, 2:])
+def _along(diagram: Diagram, fit: Spread) -> Floats:
+    """(n, 1, 2): places along the links."""
+    ends = np.array([[(k.x0, k.y0), (k.x1, k.y1)] for k in diagram.links]).reshape(-1, 2, 2)
+    ends = np.array(fit.start) + fit.cell * ends
+    return np.asarray(((1 - ALONG) * ends[:, 0] + ALONG * ends[:, 1]).reshape(-1, 1, 2))
+
+
+def _meets(fit: Spread, words: Floats) -> Mask:
+    """(n,) bool: which of the ``words`` (n, 4) are over a dot."""
+    near = np.clip(fit.at[None], words[:, None, :2], words[:, None, 2:])
     far = np.linalg.norm(near - fit.at[None], axis=2)
-    return np.asarray(_written(fit) & (far < fit.reach + 0.5 * GAP * fit.unit).any(axis=1))
+    return np.asarray(_written(words) & (far < fit.reach + 0.5 * GAP * fit.unit).any(axis=1))
 
 
-def _crossed(diagram: Diagram, fit: Spread) -> Mask:
-    """(n_dots,) bool: words that a link runs through."""
-    if not diagram.links:
-        return np.zeros(len(diagram.dots), dtype=np.bool_)
-    ends = np.array(fit.start) + fit.cell * np.array([[(k.x0, k.y0), (k.x1, k.y1)] for k in diagram.links])
-    along = ((1 - ALONG) * ends[:, 0] + ALONG * ends[:, 1]).reshape(-1, 1, 2)
+def _crossed(fit: Spread, words: Floats, along: Floats) -> Mask:
+    """(n,) bool: which of the ``words`` (n, 4) have a place ``along`` a link in them."""
     gap = 0.25 * GAP * fit.unit
-    inside = (along > fit.words[None, :, :2] - gap) & (along < fit.words[None, :, 2:] + gap)
-    return np.asarray(_written(fit) & inside.all(axis=2).any(axis=0))
+    inside = (along > words[None, :, :2] - gap) & (along < words[None, :, 2:] + gap)
+    return np.asarray(_written(words) & inside.all(axis=2).any(axis=0))
 
 
-def _written(fit: Spread) -> Mask:
-    """(n_dots,) bool: those with words."""
-    return np.asarray(fit.words[:, 2] > fit.words[:, 0])
+def _written(words: Floats) -> Mask:
+    """(n,) bool: which of the rooms (n, 4) have words in them."""
+    return np.asarray(words[:, 2] > words[:, 0])
 
 
 def _outside(stroke: Stroke, middle: Floats, reach: float) -> list[Stroke]:
