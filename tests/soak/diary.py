@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from app.draw.fading import faded
-from app.gui.session import NOT_UNDONE, REMEMBERED, Session, Transition
+from app.gui.session import NOT_UNDONE, REMEMBERED, USUAL, Session, Transition
 from app.state import Options, State, settle
 from lessons.script import Lesson
 
@@ -111,7 +111,7 @@ class Diary(Session):
 
 def _plain(state: State) -> State:
     """What undo brings back; the rest is of the room."""
-    return _in_the_room_of(state, Options())
+    return _in_the_room_of(state, USUAL)  # whose language is always the same one
 
 
 def _told_again(state: State, past: list[State], future: list[State], entries: Sequence[Told]) -> tuple[Any, ...]:
