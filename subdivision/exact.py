@@ -169,8 +169,10 @@ def spelled_together(weights: "Sequence[Exact]") -> list[str]:
 
 def add_rows(parts: "Mapping[int, Exact]", onto: Row, factor: "Exact | int" = 1) -> None:
     """Add ``factor`` times a row to another, in place."""
+    is_once = factor == 1
     for column, weight in parts.items():
-        onto[column] = onto.get(column, Fraction(0)) + factor * weight
+        share = weight if is_once else factor * weight
+        onto[column] = onto[column] + share if column in onto else share
 
 
 def _terms(number: Fraction | Cosines | int) -> tuple[tuple[Monomial, Fraction], ...]:

@@ -14,6 +14,9 @@ from subdivision.rows import Connectivity
 from subdivision.trace import Mesh
 from subdivision.words import phrase
 
+PAIRS = 1 << 18
+"""How many points are compared with one another at once."""
+
 
 class Counts(NamedTuple):
     """How many vertices, edges and faces there are, and V - E + F."""
@@ -74,19 +77,27 @@ def largest_distance(a: Mesh, b: Mesh) -> float:
 
 def largest_gap(points: Floats, among: Floats) -> float:
     """How far the loneliest of ``points`` (n, 3) is from the nearest point ``among`` others (m, 3)."""
-    from scipy.spatial import KDTree  # a quarter of a second, which no start of the program should wait for
-
-    return float(np.max(KDTree(among).query(points)[0], initial=0.0))
+    part = max(PAIRS // max(len(among), 1), 1)
+    gaps = [
+        np.linalg.norm(points[k : k + part, None] - among, axis=2).min(axis=1).max()
+        for k in range(0, len(points), part)
+    ]
+    return float(max(gaps, default=0.0))
 
 
 def edges_apart(t: Connectivity, vertices: Indices) -> Floats:
     """(k, k): how many edges the shortest way between each two of ``vertices`` has; inf where there is none."""
-    from scipy.sparse.csgraph import shortest_path
-
-    n, ends = t.n_vertices, t.ends
-    graph = csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), (n, n))
-    ways: Floats = shortest_path(graph, directed=False, unweighted=True, indices=vertices)
-    return ways[:, vertices]
+    n, (here, there) = t.n_vertices, t.ends.T
+    along = csr_array((np.ones(2 * len(here)), (np.r_[here, there], np.r_[there, here])), (n, n))
+    ways = np.full((n, len(vertices)), np.inf)
+    front = np.zeros(ways.shape, dtype=np.bool_)
+    front[vertices, np.arange(len(vertices))] = True
+    far = 0
+    while front.any():
+        ways[front] = far
+        front = (along @ front.astype(float) > 0) & np.isinf(ways)
+        far += 1
+    return ways[vertices].T
 
 
 def _sides(mesh: Mesh, vertex: int) -> tuple[Floats, Floats]:

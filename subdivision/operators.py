@@ -107,8 +107,9 @@ class MeanOf(Operator):
 
     def row(self, i: int) -> Row:
         row: Row = {}
-        for column in self.columns[i]:
-            add_rows({int(column): Fraction(1, self.columns.shape[1])}, row)
+        share = Fraction(1, self.columns.shape[1])
+        for column in self.columns[i].tolist():
+            add_rows({column: share}, row)
         return row
 
 
@@ -143,8 +144,10 @@ class Mean(Operator):
     def row(self, i: int) -> Row:
         grouped, start = self._grouped
         row: Row = {}
-        for column in grouped[start[i] : start[i + 1]]:
-            add_rows({int(column): Fraction(1, int(self.counts[i]))}, row)
+        columns = grouped[start[i] : start[i + 1]].tolist()
+        share = Fraction(1, max(len(columns), 1))
+        for column in columns:
+            add_rows({column: share}, row)
         return row
 
 

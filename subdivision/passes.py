@@ -38,8 +38,11 @@ def told(topology: Connectivity, passes: Iterable[Pass]) -> Step:
 def at_once(name: str, step: Step) -> Step:
     """A whole step as a single stage; a new point continues the old one that makes up most of it."""
     matrix = step.matrix
-    heaviest = np.asarray(matrix.argmax(axis=1)).ravel()
-    carries = np.where(matrix.max(axis=1).toarray().ravel() > 1 / 2 + 1e-12, heaviest, -1)
+    heavy = matrix.tocoo()
+    kept = np.flatnonzero(heavy.data > 1 / 2 + 1e-12)
+    kept = kept[np.lexsort((-heavy.col[kept], heavy.data[kept]))]  # the heaviest last, of equals the first: it stays
+    carries = np.full(matrix.shape[0], -1)
+    carries[heavy.row[kept]] = heavy.col[kept]
     operator = _composed(step)
     return Step((Stage(name, operator, step.topology, carries, _roles(matrix)),))
 

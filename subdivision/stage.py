@@ -1,5 +1,6 @@
 """A stage is one factor of a subdivision step; a stencil is one row of its matrix."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
@@ -32,7 +33,7 @@ class Stencil:
     terms: tuple[tuple[int, Exact], ...]
 
     @classmethod
-    def of(cls, point: int, row: Row) -> "Stencil":
+    def of(cls, point: int, row: Mapping[int, Exact]) -> "Stencil":
         return cls(point, tuple(sorted(row.items(), key=lambda term: (-float(term[1]), term[0]))))
 
     @property
@@ -101,9 +102,20 @@ class Stage:
         )
         return bool(abs(self.matrix[kept] - stay).max() > 1e-12) if len(kept) else False
 
+    @cached_property
+    def _rows(self) -> dict[int, Row]:
+        """The rows that have been asked for."""
+        return {}
+
+    def row(self, point: int) -> Mapping[int, Exact]:
+        """The weights of ``point``, by the points before this stage."""
+        if point not in self._rows:
+            self._rows[point] = self.operator.row(point)
+        return self._rows[point]
+
     def stencil(self, point: int) -> Stencil:
         """How ``point`` is made of the points before this stage."""
-        return Stencil.of(point, self.operator.row(point))
+        return Stencil.of(point, self.row(point))
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +144,7 @@ class Step:
         for stage in reversed(self.stages):
             before: Row = {}
             for column, weight in row.items():
-                add_rows(stage.operator.row(column), before, weight)
+                add_rows(stage.row(column), before, weight)
             row = {c: w for c, w in before.items() if w}
         return Stencil.of(point, row)
 
