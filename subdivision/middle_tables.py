@@ -16,9 +16,10 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from subdivision import refine, refine_sqrt3
+from subdivision import refine_sqrt3
 from subdivision.arrays import Floats, Indices, taken
 from subdivision.middle_steps import MiddleStep, Reach, by_count
+from subdivision.poles import pole
 from subdivision.topology import Topology
 
 AT_ONCE = 512
@@ -137,12 +138,9 @@ def _ring(t: Topology, faces: Indices, n: int) -> Indices:
 def _table(n: int, depth: int, reach: Reach) -> tuple[Indices, Floats]:
     """Which of the ring of a block are read, and (n_read, n_own) float: the block made of them.
 
-    The first triangle shows it, at a pole of valence ``n`` round which all is regular.
+    The first triangle of a pole of valence ``n`` shows it.
     """
-    cones = [[[0, 2 + k, 2 + (k + 1) % n], [1, 2 + (k + 1) % n, 2 + k]] for k in range(n)]
-    t = Topology.from_faces([face for pair in cones for face in pair])
-    for _ in range(2):
-        t = refine.triangles(t)
+    t = pole(n, splits=2)
     steps = [MiddleStep(t, reach)]
     while len(steps) < depth:
         steps.append(MiddleStep(steps[-1].topology, reach))

@@ -2,8 +2,9 @@
 
 The first levels are kernels, one after the other.  Where the rest is deep, a table for each
 kind of face makes it at once; a small mesh has one table for everything.  Dual schemes have
-steps of their own, and tables for each kind of corner; so have those that flip edges, for each
-kind of triangle.  Schemes that have none are told in stages, which all of this is tested against.
+steps of their own, and tables for each kind of corner; so have those that flip edges, and the
+butterfly, for each kind of triangle.  Schemes that have none, and the butterfly of open meshes,
+are told in stages, which all of this is tested against.
 """
 
 from dataclasses import dataclass, replace
@@ -14,6 +15,9 @@ import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, frozen
+from subdivision.butterfly_steps import Beside, Butterfly, butterfly_step
+from subdivision.butterfly_tables import DEPTHS as BUTTERFLY_DEPTHS
+from subdivision.butterfly_tables import butterfly_tables
 from subdivision.corner_blocks import Blocks, blocks
 from subdivision.corner_numbers import Numbering
 from subdivision.corner_steps import CornerStep, Wave
@@ -41,7 +45,7 @@ FACES_A_KIND, FINE_FACES_A_KIND = 6, 2_000
 SMALL, SMALL_ENOUGH = 16, 8_000
 """Control points, and points made of them, up to which one dense matrix is the fastest plan."""
 
-AnyStep: TypeAlias = Kernel | Later | CornerStep | Blocks | MiddleStep | MiddleTables | Rows | Step | Tables
+AnyStep: TypeAlias = Kernel | Later | CornerStep | Blocks | MiddleStep | MiddleTables | Butterfly | Rows | Step | Tables
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +118,8 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
         return _dual(t, scheme, scheme.corners, scheme.numbering, levels)
     if isinstance(t, Topology) and scheme.middles:
         return _flipping(t, scheme.middles, levels, scheme.faces_after(t, levels))
+    if isinstance(t, Topology) and scheme.beside and is_swift(t, scheme):
+        return _butterfly(t, scheme.beside, levels, scheme.faces_after(t, levels))
     if rule is None or not isinstance(t, Topology) or scheme.refinement is None:
         return _staged(t, scheme, levels)
     fine = scheme.refinement.faces(t, levels) if levels else 0
@@ -130,13 +136,20 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     return Plan(t, tuple(steps))
 
 
+def is_swift(t: Connectivity, scheme: Scheme) -> bool:
+    """Whether whole arrays make it, which need little memory beside it."""
+    if not isinstance(t, Topology):
+        return False
+    return bool(scheme.reach or scheme.middles or (scheme.beside and not t.boundary.any()))
+
+
 def _kept(step: AnyStep) -> AnyStep:
     """The same step, slower to make and quicker to apply; rows of triangles are short."""
     if isinstance(step, Kernel):
         return assembled(step)
     if isinstance(step, Later) and step.rule.size == 3:
         return assembled(kernel(step.coarse, step.rule))
-    if isinstance(step, CornerStep | MiddleStep):
+    if isinstance(step, CornerStep | MiddleStep | Butterfly):
         return step.assembled()
     return Rows(step.matrix) if isinstance(step, Step) else step
 
@@ -175,6 +188,21 @@ def _flipping(t: Topology, reach: MiddleReach, levels: int, fine: int) -> Plan:
             deep = middle_tables(step, depth, at_most=fine // FINE_FACES_A_KIND)
             if deep:
                 return Plan(deep.topology, (*steps, step, deep))
+        steps.append(step)
+        t = step.topology
+    return Plan(t, tuple(steps))
+
+
+def _butterfly(t: Topology, beside: Beside, levels: int, fine: int) -> Plan:
+    """Closed meshes step by step, then by tables, which begin one step on."""
+    steps: list[Butterfly] = []
+    while len(steps) < levels:
+        step, depth = steps[-1].after() if steps else butterfly_step(t, beside), levels - len(steps)
+        if steps and depth in BUTTERFLY_DEPTHS and fine > WORTH_TABLES:
+            most = min(t.n_faces // FACES_A_KIND, fine // FINE_FACES_A_KIND)
+            deep = butterfly_tables(t, depth, beside, most)
+            if deep:
+                return Plan(_renumbered(deep), (*steps, step, deep))
         steps.append(step)
         t = step.topology
     return Plan(t, tuple(steps))

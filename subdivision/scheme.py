@@ -46,6 +46,9 @@ class Scheme:
     middles : valence -> number, optional
         Likewise of a scheme that gives triangles middles and flips edges: how far an old vertex goes to the mean
         of the middles round it.
+    beside : (valence, steps round) -> number, optional
+        Likewise of the butterfly: what the point beside an extraordinary vertex holds of the neighbour so far round
+        from its own.
     limit : Connectivity -> Stage, optional
         Points to where they tend to.
     tangents : Topology -> (Operator, Operator), optional
@@ -63,6 +66,7 @@ class Scheme:
     corners: Callable[[int, int], Exact | int] | None = None
     numbering: Numbering | None = None
     middles: Callable[[int], Exact | int] | None = None
+    beside: Callable[[int, int], Exact | int] | None = None
     limit: Callable[[Connectivity], Stage] | None = None
     tangents: Callable[[Topology], tuple[Operator, Operator]] | None = None
 

@@ -9,12 +9,13 @@ kind, the points inside each patch and on the edges it owns.  Faces and half-edg
 numbers the stages give them.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, short, taken
+from subdivision.arrays import Floats, Indices, Mask, short, taken
 from subdivision.kernels import Rule, kernel
 from subdivision.mirrors import seen_mirrored
 from subdivision.rings import Kind, Sorted, sorted_faces, unfolded, with_ring
@@ -72,7 +73,7 @@ class Patches:
 
 @dataclass(frozen=True, eq=False)
 class Tables:
-    """``depth`` levels at once, from ``coarse``.
+    """``depth`` levels at once, from ``coarse``, whose points, the vertices', are the first of those that are read.
 
     Attributes
     ----------
@@ -91,8 +92,8 @@ class Tables:
     corner: Indices
 
     def apply(self, points: Floats, out: Floats | None = None) -> Floats:
-        """(n_vertices, d) float -> (n_points, d) float, into ``out`` if there is one."""
-        (V, d), F = points.shape, self.coarse.n_faces
+        """(n_read, d) float -> (n_points, d) float, into ``out`` if there is one."""
+        V, F, d = self.coarse.n_vertices, self.coarse.n_faces, points.shape[1]
         made = np.empty((self.n_points, d)) if out is None else out
         corners = np.empty((self.coarse.n_halfedges, d))
         k, end = self.coarse.n_halfedges // F, 0
@@ -101,7 +102,7 @@ class Tables:
             patches.apply(points, made, corners[begin:end])
         np.take(corners, self.corner, axis=0, out=made[:V], mode="clip")
         alone = self.corner < 0
-        made[:V][alone] = points[alone]
+        made[:V][alone] = points[:V][alone]
         return made
 
     @cached_property
@@ -124,48 +125,58 @@ class Tables:
 
 def tables(t: Topology, depth: int, rule: Rule, at_most: int) -> Tables | None:
     """Tables for a mesh that is itself the outcome of a step; None where it has too many kinds of faces."""
-    F, H, V = t.n_faces, t.n_halfedges, t.n_vertices
-    k = H // F
-    central = np.arange(F) >= (F if k == 4 else 3 * F // 4)
-    found = sorted_faces(t, central, at_most)
+    found = sorted_faces(t, _central(t), at_most)
     if found is None:
         return None
+    return laid_out(t, depth, found.faces, found.start, found.rings(t), _tables(found, depth, rule))
+
+
+def _central(t: Topology) -> Mask:
+    """(n_faces,) bool: the triangles in the middle of those before."""
+    F = t.n_faces
+    return np.arange(F) >= (F if t.n_halfedges == 4 * F else 3 * F // 4)
+
+
+def laid_out(
+    t: Topology, depth: int, faces: Indices, start: Indices, rings: Sequence[Indices], tables: Sequence[Floats]
+) -> Tables:
+    """The ``tables`` for faces of ``t`` by kind, ``faces[start[i]:start[i + 1]]``, from their ``rings``."""
+    F, H, V = t.n_faces, t.n_halfedges, t.n_vertices
+    k = H // F
     split = template(k, depth)
-    owns = np.where(central[found.faces[found.start[:-1]]], 0, 2)
-    rim = t.twin[k * found.faces + k - 1] < 0
-    n, on_rim = np.diff(found.start), np.add.reduceat(rim, found.start[:-1], dtype=np.intp)
+    owns = np.where(_central(t)[faces[start[:-1]]], 0, 2)
+    rim = t.twin[k * faces + k - 1] < 0
+    n, on_rim = np.diff(start), np.add.reduceat(rim, start[:-1], dtype=np.intp)
     rows = split.n_inside + owns * split.on_side
     begins = V + np.cumsum(np.concatenate([[0], n * rows]))
     rim_begins = begins[-1] + np.cumsum(np.concatenate([[0], on_rim * split.on_side]))
 
     kind = np.repeat(np.arange(len(n)), n)
-    place = np.arange(F) - found.start[kind]
+    place = np.arange(F) - start[kind]
     begin, step = np.zeros(F + H, dtype=np.intp), np.zeros(F + H, dtype=np.intp)
-    begin[found.faces], step[found.faces] = begins[kind] + place, n[kind]
+    begin[faces], step[faces] = begins[kind] + place, n[kind]
     for i in range(2):
         own = owns[kind] > 0
-        h = F + k * found.faces[own] + i
-        begin[h] = begin[found.faces[own]] + (split.n_inside + i * split.on_side) * n[kind[own]]
+        h = F + k * faces[own] + i
+        begin[h] = begin[faces[own]] + (split.n_inside + i * split.on_side) * n[kind[own]]
         step[h] = n[kind[own]]
     before: Indices = np.cumsum(rim) - rim
-    h = F + k * found.faces[rim] + k - 1
-    begin[h] = (rim_begins[kind] + before - before[found.start[kind]])[rim]
+    h = F + k * faces[rim] + k - 1
+    begin[h] = (rim_begins[kind] + before - before[start[kind]])[rim]
     step[h] = on_rim[kind[rim]]
     _share(t.twin, begin[F:], step[F:], split.on_side)
 
     corner = np.full(V, -1)
-    corner[t.origin.reshape(F, k)[found.faces]] = (k * found.start[kind] + place)[:, None] + n[kind][
-        :, None
-    ] * np.arange(k)
+    corner[t.origin.reshape(F, k)[faces]] = (k * start[kind] + place)[:, None] + n[kind][:, None] * np.arange(k)
     patches, none = [], np.zeros(0, dtype=np.intp)
-    for i, (around, table) in enumerate(zip(found.rings(t), _tables(found, depth, rule), strict=True)):
+    for i, (around, table) in enumerate(zip(rings, tables, strict=True)):
         patches.append(Patches(
             ring=around,
             table=table[k : split.until_side(owns[i])],
             corners=table[:k],
             begin=int(begins[i]),
             rim=table[split.until_side(k - 1) :],
-            on_rim=np.flatnonzero(rim[found.start[i] : found.start[i + 1]]) if on_rim[i] else none,
+            on_rim=np.flatnonzero(rim[start[i] : start[i + 1]]) if on_rim[i] else none,
             rim_begins=int(rim_begins[i]),
         ))  # fmt: skip
     return Tables(t, depth, tuple(patches), int(rim_begins[-1]), begin, step, corner)

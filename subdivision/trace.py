@@ -9,7 +9,7 @@ import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, frozen
 from subdivision.manifold import TopologyError
-from subdivision.plan import once
+from subdivision.plan import is_swift, once
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.size import STAGED, SWIFT, TRACED, require_room
@@ -300,7 +300,7 @@ def subdivide(control: Mesh, scheme: Scheme, levels: int, *, most: int | None = 
     TopologyError
         If the scheme refuses the control object, or there is no room: for ``most`` faces, or in this machine's memory.
     """
-    is_swift = (scheme.reach or scheme.middles) and isinstance(control.topology, Topology)
-    require_room(scheme, control.topology, levels, SWIFT if is_swift else STAGED, most)
+    swift = is_swift(control.topology, scheme)
+    require_room(scheme, control.topology, levels, SWIFT if swift else STAGED, most)
     made = once(control.topology, scheme, levels)
     return Mesh(made.topology, frozen(made.apply(control.points)))

@@ -125,5 +125,6 @@ MODIFIED_BUTTERFLY = Scheme(
     tellings={"midpoints, then push": by_pushing, "stencils": by_stencils},
     refinement=refine.TRIANGLES,
     rings=2,
+    beside=weight,
     limit=every_vertex_stays,
 )

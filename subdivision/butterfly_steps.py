@@ -1,0 +1,276 @@
+"""One step of the modified butterfly on whole arrays: the vertices stay, and every edge of a closed mesh gets a point.
+
+Every half-edge adds what it sees on its side to the point of its edge, as if all vertices were
+regular: half of its origin, the wing in its own triangle, and the corners beyond its two
+neighbours.  Then the points beside extraordinary vertices are made over: round all vertices of
+one valence by one product.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import TypeAlias
+
+import numpy as np
+from scipy.sparse import _sparsetools, csr_array, eye_array, vstack
+
+from subdivision import refine
+from subdivision.arrays import Floats, Indices, Small, taken, turned
+from subdivision.exact import Exact
+from subdivision.kernels import Rows
+from subdivision.topology import Topology
+
+Beside = Callable[[int, int], Exact | int]
+"""Valence, steps round -> what the point beside an extraordinary vertex holds of the neighbour so far from its own."""
+
+CENTRE = 3 / 4
+"""What it holds of the extraordinary vertex."""
+
+AT_ONCE = 2048
+"""How many triangles there are in a run: what they make stays in the cache."""
+
+
+@dataclass(frozen=True, eq=False)
+class ButterflyStep:
+    """One step from ``coarse``, closed and all triangles, numbered as the stages do: the vertices, then the edges.
+
+    Attributes
+    ----------
+    spokes : ((n, n_vertices) int, ...)
+        The half-edges round the extraordinary vertices, in order, together where there are equally many.
+    """
+
+    coarse: Topology
+    beside: Beside
+    spokes: tuple[Indices, ...]
+
+    @property
+    def n_points(self) -> int:
+        """How many points it makes."""
+        return self.coarse.n_vertices + self.coarse.n_edges
+
+    def apply(self, points: Floats, out: Floats | None = None) -> Floats:
+        """(n_vertices, d) float -> (n_points, d) float, into ``out`` if there is one."""
+        V, d = points.shape
+        made = np.empty((self.n_points, d)) if out is None else out
+        made[:V] = points
+        edges = made[V:]
+        edges.fill(0)
+        origin, edge, beyond = self._origin, self._edge, self._beyond
+        for begin in range(0, self.coarse.n_faces, AT_ONCE):
+            some = slice(begin, begin + AT_ONCE)
+            corner, outer = taken(points, origin[some]), taken(points, beyond[some])
+            side = turned(corner, -1)
+            side -= 1 / 2 * _both(outer)
+            side *= 1 / 4
+            side += corner
+            side *= 1 / 2
+            _add(edge[some].ravel(), side.reshape(-1, d), edges)
+        self.make_over(points, edges)
+        return made
+
+    def make_over(self, points: Floats, edges: Floats) -> None:
+        """The points beside extraordinary vertices; the mean of two where both ends are."""
+        d = points.shape[1]
+        for h, _ in self._made_over:
+            edges[h] = 0
+        for spokes, (edge, share) in zip(self.spokes, self._made_over, strict=True):
+            n = len(spokes)
+            ring = taken(points, taken(self.coarse.origin, _after(spokes)))
+            made = (_round(self.beside, n) @ ring.reshape(n, -1)).reshape(ring.shape)
+            made += CENTRE * taken(points, taken(self.coarse.origin, spokes[0]))
+            made *= share[:, :, None]
+            _add(edge.ravel(), made.reshape(-1, d), edges)
+
+    def assembled(self) -> Rows:
+        """The same as one sparse matrix."""
+        t, origin, edge, beyond = self.coarse, self._origin, self._edge, self._beyond
+        regular = np.ones(t.n_edges, dtype=bool)
+        rows, columns, weights = [], [], []
+        for h, _ in self._made_over:
+            regular[h] = False
+        some = regular[edge]
+        for weight, column in ((1 / 2, origin), (1 / 8, turned(origin, -1)),
+                               (-1 / 16, turned(beyond, 1)), (-1 / 16, turned(beyond, -1))):  # fmt: skip
+            rows.append(edge[some])
+            columns.append(column[some])
+            weights.append(np.full(len(rows[-1]), weight))
+        for spokes, (at, share) in zip(self.spokes, self._made_over, strict=True):
+            n, ends = len(spokes), taken(t.origin, _after(spokes))
+            for row, column in zip(_round(self.beside, n).T, ends, strict=True):
+                rows.append(at.ravel())
+                columns.append(np.broadcast_to(column, at.shape).ravel())
+                weights.append((share * row[:, None]).ravel())
+            rows.append(at.ravel())
+            columns.append(np.broadcast_to(taken(t.origin, spokes[0]), at.shape).ravel())
+            weights.append(CENTRE * share.ravel())
+        places = np.concatenate(rows), np.concatenate(columns)
+        edges = csr_array((np.concatenate(weights), places), shape=(t.n_edges, t.n_vertices))
+        return Rows(csr_array(vstack([eye_array(t.n_vertices), edges], format="csr")))
+
+    @cached_property
+    def topology(self) -> Topology:
+        """After the step."""
+        return refine.triangles(self.coarse)
+
+    def after(self) -> "ButterflyLater":
+        """The step after it: half-edge ``3 h`` leaves the vertex that ``h`` left."""
+        step = ButterflyStep(self.topology, self.beside, tuple(3 * some for some in self.spokes))
+        return ButterflyLater(self.coarse, step)
+
+    @cached_property
+    def _origin(self) -> Small:
+        """(n_faces, 3) int: the vertex each half-edge leaves."""
+        return self.coarse.origin.astype(np.int32, copy=False).reshape(-1, 3)
+
+    @cached_property
+    def _edge(self) -> Small:
+        """... and its edge."""
+        return self.coarse.edge.astype(np.int32, copy=False).reshape(-1, 3)
+
+    @cached_property
+    def _beyond(self) -> Small:
+        """... and the corner of the triangle beyond."""
+        return taken(turned(self._origin, -1).ravel(), self.coarse.twin).reshape(-1, 3)
+
+    @cached_property
+    def _made_over(self) -> list[tuple[Small, Floats]]:
+        """For each of ``spokes`` their edges, and how much of the point there is theirs."""
+        edges = [taken(self._edge.ravel(), some) for some in self.spokes]
+        count = np.bincount(np.concatenate([e.ravel() for e in edges])) if edges else np.zeros(0)
+        return [(e, 1 / count[e]) for e in edges]
+
+
+@dataclass(frozen=True, eq=False)
+class ButterflyLater:
+    """The same as ``step``, quicker: told by the mesh ``before``, a quarter as large, of which a step has made its own.
+
+    Round the corner that a half-edge ``h`` leaves it makes the point inside the triangle, and adds
+    what is on its side to the points on both halves of its edge.
+    """
+
+    before: Topology
+    step: ButterflyStep
+
+    @property
+    def coarse(self) -> Topology:
+        """What it begins with."""
+        return self.step.coarse
+
+    @property
+    def n_points(self) -> int:
+        """How many points it makes."""
+        return self.step.n_points
+
+    @property
+    def topology(self) -> Topology:
+        """After the step."""
+        return self.step.topology
+
+    def after(self) -> "ButterflyLater":
+        """The step after it."""
+        return self.step.after()
+
+    def assembled(self) -> Rows:
+        """The same as one sparse matrix."""
+        return self.step.assembled()
+
+    def apply(self, points: Floats, out: Floats | None = None) -> Floats:
+        """(n_vertices, d) float -> (n_points, d) float, into ``out`` if there is one."""
+        t, (N, d) = self.before, points.shape
+        E = t.n_edges
+        made = np.empty((self.n_points, d)) if out is None else out
+        made[:N] = points
+        edges = made[N:]
+        halves, inner = edges[: 2 * E], edges[2 * E :].reshape(-1, 3, d)
+        halves.fill(0)
+        for begin in range(0, t.n_faces, AT_ONCE):
+            some = slice(begin, begin + AT_ONCE)
+            corner, ahead, right, left = (taken(points, index[some]) for index in self._around)
+            behind, beyond = turned(ahead, -1), turned(ahead, 1)
+            both = ahead + behind
+            inside = 8 * both
+            inside += 2 * (corner + beyond)
+            inside -= right
+            inside -= left
+            inside -= _both(corner)
+            np.multiply(inside, 1 / 16, out=inner[some])
+            corner *= 4
+            corner -= beyond
+            corner += 2 * both
+            ahead *= 2
+            ahead += corner
+            ahead -= left
+            behind *= 2
+            behind += corner
+            behind -= right
+            _add(self._half_ahead[some].ravel(), ahead.reshape(-1, d), halves, 1 / 16)
+            _add(self._half_behind[some].ravel(), behind.reshape(-1, d), halves, 1 / 16)
+        self.step.make_over(points, edges)
+        return made
+
+    @cached_property
+    def _around(self) -> tuple[Small, Small, Small, Small]:
+        """(n_faces, 3) int each: the vertex at each corner, the point ahead, and those right and left of the corner.
+
+        The point ahead is on the edge that leaves the corner; from there the one on the right is the next clockwise
+        round the vertex, and the one on the left the next but one counter-clockwise.
+        """
+        t, V = self.before, self.before.n_vertices
+        origin, edge, twin = (x.reshape(-1, 3) for x in (t.origin, V + t.edge, t.twin))
+        right, left = (taken(turned(edge, by).ravel(), twin) for by in (1, -1))
+        return origin, edge, right, turned(left, -1)
+
+    @cached_property
+    def _half_ahead(self) -> Small:
+        """(n_faces, 3) int: the half, at the corner, of the edge that leaves it."""
+        return refine.half_edges(self.before).astype(np.int32).reshape(-1, 3)
+
+    @cached_property
+    def _half_behind(self) -> Small:
+        """... and of the edge that arrives."""
+        return turned(self._half_ahead ^ 1, -1)
+
+
+Butterfly: TypeAlias = ButterflyStep | ButterflyLater
+
+
+def butterfly_step(t: Topology, beside: Beside) -> ButterflyStep:
+    """One step on ``t``."""
+    counts = np.bincount(t.origin, minlength=t.n_vertices)
+    first = np.empty(t.n_vertices, dtype=np.intp)
+    first[t.origin] = np.arange(t.n_halfedges)
+    groups = []
+    for n in np.flatnonzero(np.bincount(counts)).tolist():
+        if n not in (0, 6):
+            spokes = [first[counts == n]]
+            while len(spokes) < n:
+                spokes.append(_after(taken(t.twin, spokes[-1])))
+            groups.append(np.stack(spokes))
+    return ButterflyStep(t, beside, tuple(groups))
+
+
+def _both(of_halfedges: Floats) -> Floats:
+    """What the next and the previous half-edge of each of (n, 3, d) have together."""
+    both = turned(of_halfedges, 1)
+    both += turned(of_halfedges, -1)
+    return both
+
+
+def _after(halfedges: Indices) -> Indices:
+    """The next ones, in triangles."""
+    return halfedges + np.where(halfedges % 3 == 2, -2, 1)
+
+
+@lru_cache(maxsize=64)
+def _round(beside: Beside, n: int) -> Floats:
+    """(n, n): row by row what the points beside a vertex hold of its neighbours."""
+    row = np.array([float(beside(n, j)) for j in range(n)])
+    return np.take(row, (np.arange(n) - np.arange(n)[:, None]) % n)
+
+
+def _add(at: Small, values: Floats, out: Floats, weight: float = 1) -> None:
+    """Add ``weight`` times the ``values`` to ``out`` ``at`` their places."""
+    n, d = values.shape
+    places = np.arange(n, dtype=np.int32)
+    _sparsetools.coo_matmat_dense(n, d, at, places, np.full(n, weight), values.reshape(-1), out.reshape(-1))

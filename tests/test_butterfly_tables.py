@@ -1,0 +1,92 @@
+"""The butterfly on whole arrays and by tables makes what the stages make, for every valence."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from subdivision import Mesh, plan, shapes, subdivide
+from subdivision.butterfly_steps import ButterflyLater, ButterflyStep
+from subdivision.butterfly_tables import DEPTHS, LARGEST_FAN
+from subdivision.kernels import Rows
+from subdivision.schemes import MODIFIED_BUTTERFLY
+from subdivision.stage import Step
+from subdivision.tables import Tables
+from tests.test_middle_tables import closed
+from tests.test_tables import assert_same, staged
+
+PLANS = sys.modules["subdivision.plan"]
+
+
+@pytest.fixture
+def eager(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tables however small the mesh is."""
+    for name, value in (("WORTH_TABLES", 0), ("SMALL", 0), ("FACES_A_KIND", 0.01), ("FINE_FACES_A_KIND", 0.01)):
+        monkeypatch.setattr(PLANS, name, value)
+
+
+def test_steps_make_the_points_of_the_stages() -> None:
+    for name, mesh in closed().items():
+        made = PLANS.once(mesh.topology, MODIFIED_BUTTERFLY, 3)
+        assert [type(step) for step in made.steps] == [ButterflyStep, ButterflyLater, ButterflyLater]
+        expected = staged(mesh, MODIFIED_BUTTERFLY, 3)
+        assert_same(made, made.apply(mesh.points), expected, name)
+        assert np.array_equal(made.numbers, np.arange(len(made.numbers)))
+        kept = plan(mesh.topology, MODIFIED_BUTTERFLY, 3)
+        assert_same(kept, kept.apply(mesh.points), expected, f"{name}, kept")
+
+
+@pytest.mark.usefixtures("eager")
+def test_tables_make_the_points_of_the_stages() -> None:
+    for name, mesh in closed().items():
+        for levels in (4, 5) if mesh.surface.n_faces < 20 else (4,):
+            made = plan(mesh.topology, MODIFIED_BUTTERFLY, levels)
+            assert isinstance(made.steps[-1], Tables)
+            assert made.steps[-1].depth == levels - 1
+            assert_same(made, made.apply(mesh.points), staged(mesh, MODIFIED_BUTTERFLY, levels), f"{name}, {levels}")
+
+
+@pytest.mark.usefixtures("eager")
+def test_tables_after_several_steps_are_those_of_the_stages() -> None:
+    mesh = shapes.bipyramid(5)
+    levels = max(DEPTHS) + 2
+    made = plan(mesh.topology, MODIFIED_BUTTERFLY, levels)
+    assert [type(step) for step in made.steps] == [Rows] * 3 + [Tables]
+    assert_same(made, made.apply(mesh.points), staged(mesh, MODIFIED_BUTTERFLY, levels), "deep")
+
+
+@pytest.mark.usefixtures("eager")
+def test_points_move_in_any_number_of_dimensions() -> None:
+    t, draw = shapes.bipyramid(7).surface, np.random.default_rng(2)
+    made = plan(t, MODIFIED_BUTTERFLY, 4)
+    steps = PLANS.once(t, MODIFIED_BUTTERFLY, 2)
+    for d in (1, 2, 4):
+        points = draw.normal(size=(9, d))
+        out = np.empty((made.topology.n_vertices, d))
+        assert made.apply(points, out) is out
+        for each in (made, steps):
+            alone = [each.apply(column[:, None]) for column in points.T]
+            assert np.abs(each.apply(points) - np.concatenate(alone, axis=1)).max() < 1e-13
+    assert np.array_equal(out[:9], points)
+
+
+def test_large_meshes_have_tables_without_being_asked() -> None:
+    mesh = shapes.icosahedron()
+    fine, made = subdivide(mesh, MODIFIED_BUTTERFLY, 6), plan(mesh.topology, MODIFIED_BUTTERFLY, 6)
+    assert isinstance(made.steps[-1], Tables)
+    assert_same(made, fine.points, staged(mesh, MODIFIED_BUTTERFLY, 6), "icosahedron")
+
+
+@pytest.mark.usefixtures("eager")
+def test_a_pole_of_too_many_triangles_is_made_step_by_step() -> None:
+    mesh = shapes.bipyramid(LARGEST_FAN + 1)
+    made = plan(mesh.topology, MODIFIED_BUTTERFLY, 4)
+    assert all(isinstance(step, Rows) for step in made.steps)
+    assert_same(made, made.apply(mesh.points), staged(mesh, MODIFIED_BUTTERFLY, 4), "pole")
+
+
+def test_open_meshes_are_told_in_stages() -> None:
+    mesh = Mesh(shapes.triangle_sheet().topology, shapes.triangle_sheet().points)
+    made = PLANS.once(mesh.topology, MODIFIED_BUTTERFLY, 2)
+    assert all(isinstance(step, Step) for step in made.steps)
+    assert_same(made, made.apply(mesh.points), staged(mesh, MODIFIED_BUTTERFLY, 2), "open")
