@@ -131,6 +131,7 @@ class Viewport(QWidget):
                 each.close()
             self._painters = []
             self._plotter.close()
+            self._plotter.deleteLater()
             self._plotter = None
 
     # -- showing --------------------------------------------------------------------------------
