@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import cache, partial
+from threading import get_ident
 from typing import Any
 
 import numpy as np
@@ -76,7 +77,7 @@ class Glyphs:
 class _Instances:
     """One shape at many points, each with its size and colour."""
 
-    def __init__(self, source: Callable[[int], Any], *, translucent: bool = False, rim: bool = False) -> None:
+    def __init__(self, source: Callable[[int, int], Any], *, translucent: bool = False, rim: bool = False) -> None:
         self.data, self.mapper, self.actor = vtkPolyData(), vtkGlyph3DMapper(), vtkActor()
         self.mapper.SetInputData(self.data)
         self.source, self._corners = source, 0
@@ -103,7 +104,7 @@ class _Instances:
         """Draw each marker with so many corners to its outline."""
         if corners != self._corners:  # VTK would prepare the same solid again
             self._corners = corners
-            self.mapper.SetSourceData(self.source(corners))
+            self.mapper.SetSourceData(self.source(corners, get_ident()))  # threads share no object of VTK's
 
     def show(self, points: Floats, radius: Floats, colour: Floats) -> None:
         self.data.SetPoints(vtk_arrays.points(points))
@@ -127,22 +128,23 @@ def finish(actor: Any, *, ambient: float, diffuse: float, specular: float) -> No
 
 
 @cache
-def _glyph(shape: Shape, corners: int) -> Any:
+def _glyph(shape: Shape, corners: int, thread: int) -> Any:
+    """As ``thread`` has it."""
     if shape is Shape.DIAMOND:
         return _flat(OCTAHEDRON)
     if shape is Shape.CUBE:
         return _flat(CUBE)
     if shape is Shape.BEAD:
         both = vtkAppendPolyData()
-        both.AddInputData(_sphere(BEAD, corners))
+        both.AddInputData(_sphere(BEAD, corners, thread))
         both.AddInputData(_torus(*RING, corners))
         both.Update()
         return both.GetOutput()
-    return _sphere(1.0, corners)
+    return _sphere(1.0, corners, thread)
 
 
 @cache
-def _sphere(radius: float, corners: int) -> Any:
+def _sphere(radius: float, corners: int, thread: int) -> Any:
     source = vtkSphereSource()
     source.SetRadius(radius)
     source.SetThetaResolution(corners)

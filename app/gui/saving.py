@@ -2,10 +2,11 @@
 
 import sys
 from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, QSize
-from PySide6.QtGui import QImage, QOpenGLContext
+from PySide6.QtCore import QBuffer, QIODevice, QSize, QThreadPool
+from PySide6.QtGui import QImage
 
 from app.draw.picture import Picture
 from subdivision.files.saving import save as write
@@ -19,6 +20,15 @@ SUFFIXES = (".png", ".svg", ".pdf")
 
 class SavingError(Exception):
     """Why a picture was not saved, in a sentence for the user."""
+
+
+@cache
+def darkroom() -> QThreadPool:
+    """Where pictures are drawn: the off-screen window belongs to one thread, and not to that of the window."""
+    found = QThreadPool()
+    found.setMaxThreadCount(1)
+    found.setExpiryTimeout(-1)
+    return found
 
 
 def save(picture: Picture, path: Path, seen: QSize) -> Path:
@@ -76,16 +86,15 @@ def image(picture: Picture, seen: QSize) -> QImage:
 
     pixels = raster.image(picture, *_size(seen))
     raster.shrink()
-    if (context := QOpenGLContext.currentContext()) is not None:
-        context.doneCurrent()  # the off-screen window has taken its place without Qt's knowledge
     height, width = pixels.shape[:2]
     return QImage(pixels.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBA8888).copy()
 
 
 def close() -> None:
-    """Give the off-screen window back, if there is one, before the display goes."""
+    """Give the off-screen window back, if there is one, before the display goes; what is being drawn is drawn first."""
     if "app.draw.raster" in sys.modules:
-        sys.modules["app.draw.raster"].close()
+        darkroom().start(sys.modules["app.draw.raster"].close)
+        darkroom().waitForDone()
 
 
 def _size(seen: QSize) -> tuple[int, int]:

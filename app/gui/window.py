@@ -1,6 +1,8 @@
 """The window: the picture in the middle, everything else round it."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
@@ -9,6 +11,7 @@ from PySide6.QtGui import (
     QDragEnterEvent,
     QDropEvent,
     QGuiApplication,
+    QImage,
     QKeySequence,
     QResizeEvent,
 )
@@ -71,6 +74,9 @@ from app.words import SYSTEM, language, system_language, tr
 from subdivision.words import phrase
 
 NAME = "Subdivision Studio"
+DRAWING = 500
+"""Milliseconds in which a picture is usually drawn: only beyond that a wait is announced."""
+
 WIDE = {"contents": 200, "details": 200}
 """Widths of the side panels, in pixels at 100 %."""
 
@@ -106,6 +112,7 @@ class Window(QMainWindow):
         self.banner, self.presenter = Banner(session), Presenter(session)
         self.manual = Manual(session, self.banner, settings)
         self.worker = Worker(session, self.banner)
+        self.copier, self.saver = (Worker(session, self.banner, saving.darkroom()) for _ in range(2))
         self._build()
         self._put_up()
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
@@ -362,12 +369,11 @@ class Window(QMainWindow):
 
     def save_picture_to(self, path: str) -> None:
         """Write what the viewport shows, finer than on the screen."""
-        try:
-            written = saving.save(self.viewport.picture(), Path(path), self.viewport.size())
-        except saving.SavingError as fault:
-            self.banner.say(str(fault))
-        else:
-            self.banner.tell(phrase("Saved {path}", path=written))
+        picture, seen = self.viewport.picture(), self.viewport.size()
+        self._draw(self.saver, lambda: saving.save(picture, Path(path), seen), self._saved)
+
+    def _saved(self, path: Path) -> None:
+        self.banner.tell(phrase("Saved {path}", path=path))
 
     def choose_export(self) -> None:
         """Ask what is to be taken away, and where to; then make it."""
@@ -405,8 +411,23 @@ class Window(QMainWindow):
             self.export_to(wish, path)
 
     def copy_picture(self) -> None:
-        QGuiApplication.clipboard().setImage(saving.image(self.viewport.picture(), self.viewport.size()))
+        """Put what the viewport shows on the clipboard, finer than on the screen."""
+        picture, seen = self.viewport.picture(), self.viewport.size()
+        self._draw(self.copier, lambda: saving.image(picture, seen), self._copied)
+
+    def _copied(self, image: QImage) -> None:
+        QGuiApplication.clipboard().setImage(image)
         self.banner.tell("The picture is on the clipboard.")
+
+    def _draw(self, worker: Worker, work: Callable[[], Any], then: Callable[[Any], None]) -> None:
+        """Draw a picture elsewhere, and then do something here."""
+        worker.start(
+            work, then, self.banner.say,
+            waiting="Drawing the picture …",
+            too_large="There is not enough memory for this picture; make the window smaller.",
+            broken="Something went wrong inside the program; the log has the details.",
+            patience=DRAWING,
+        )  # fmt: skip
 
     def quit(self) -> None:
         self.close()
@@ -670,5 +691,7 @@ class Window(QMainWindow):
         self.presenter.close()
         self.manual.close()
         self.viewport.close_vtk()
+        for worker in (self.copier, self.saver):
+            worker.forget()
         saving.close()
         super().closeEvent(event)

@@ -7,6 +7,7 @@ from typing import Any
 from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
 
 from app.gui.banner import Banner
+from app.gui.saving import SavingError
 from app.sessions.strict import KeepingError
 from subdivision import TopologyError
 from subdivision.files import FileError
@@ -14,16 +15,16 @@ from subdivision.files import FileError
 PATIENCE = 100
 """Milliseconds before a wait is announced."""
 
-REFUSALS = (FileError, KeepingError, TopologyError)
+REFUSALS = (FileError, KeepingError, SavingError, TopologyError)
 """Faults that are sentences for the user."""
 
 
 class Worker(QObject):
     """One piece of work at a time; a newer one replaces an older one, which is then no longer wanted."""
 
-    def __init__(self, parent: QObject, banner: Banner) -> None:
+    def __init__(self, parent: QObject, banner: Banner, pool: QThreadPool | None = None) -> None:
         super().__init__(parent)
-        self._banner = banner
+        self._banner, self._pool = banner, pool or QThreadPool.globalInstance()
         self._job: _Job | None = None
         self._running: set[_Job] = set()  # a job must outlive its run, wanted or not
         self._patience = QTimer(self, singleShot=True, interval=PATIENCE)
@@ -43,10 +44,12 @@ class Worker(QObject):
         waiting: str,
         too_large: str,
         broken: str,
+        patience: int = PATIENCE,
     ) -> None:
         """Do ``work`` elsewhere; here ``done`` is told what it made, or ``failed`` a sentence.
 
-        ``waiting`` is said while it takes long, ``too_large`` and ``broken`` where it ends in no sentence of its own.
+        ``waiting`` is said when it takes longer than ``patience`` milliseconds, ``too_large`` and ``broken`` where it
+        ends in no sentence of its own.
         """
         self.forget()
         self._waiting = waiting
@@ -55,8 +58,8 @@ class Worker(QObject):
         self._job.told.over.connect(self._running.discard)
         self._job.told.done.connect(self._succeeded)  # methods of ours, so that they are called in our thread
         self._job.told.failed.connect(self._failed)
-        self._patience.start()
-        QThreadPool.globalInstance().start(self._job)
+        self._patience.start(patience)
+        self._pool.start(self._job)
 
     def forget(self) -> None:
         """What is being worked on is no longer wanted."""

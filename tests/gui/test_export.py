@@ -4,6 +4,7 @@ import json
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QFileDialog
 
 import lessons
@@ -121,6 +122,9 @@ def test_the_key_opens_the_dialog_and_the_choice_is_made(cube, qtbot, tmp_path, 
     assert json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])["asset"]["version"] == "2.0"
 
 
-def test_a_picture_is_saved_as_pdf_too(window, tmp_path):
+def test_a_picture_is_saved_as_pdf_too_and_copied_at_the_same_time(qtbot, window, tmp_path):
     window.save_picture_to(str(tmp_path / "a.pdf"))
+    window.copy_picture()
+    qtbot.waitUntil(lambda: not (window.saver.is_busy or window.copier.is_busy), timeout=20000)
+    assert QGuiApplication.clipboard().image().width() >= 1920
     assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")

@@ -357,12 +357,14 @@ def test_a_saved_picture_is_finer_than_the_screen_and_the_window_goes_on(qtbot, 
     window.session.do(choose, speed=8.0)
     qtbot.wait(600)  # until it is smooth
     seen = window.viewport.grab().toImage()
-    window.save_picture_to(str(tmp_path / "cube"))
-    window.save_picture_to(str(tmp_path / "cube.svg"))
+    for name in ("cube", "cube.svg"):
+        window.save_picture_to(str(tmp_path / name))
+        qtbot.waitUntil(lambda: not window.saver.is_busy, timeout=20000)
     assert QImage(str(tmp_path / "cube.png")).width() >= 1920
     assert "<svg" in (tmp_path / "cube.svg").read_text()
     assert "Saved" in window.banner.words.text()
     window.save_picture_to(str(tmp_path / "cube.xyz"))
+    qtbot.waitUntil(lambda: not window.saver.is_busy, timeout=20000)
     assert ".png" in window.banner.words.text()
     press(window, Key.Key_Escape)
     qtbot.wait(600)
