@@ -6,7 +6,7 @@ alone; the shape of a sign, such as a bracket or a colon, also on its neighbours
 
 import re
 from collections import OrderedDict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
 from operator import add
@@ -79,12 +79,13 @@ def letters(text: str, bold: bool) -> list[Letter]:
 def _learn(line: str, keys: list[Key], bold: bool) -> bool:
     """Ask the shaper for the letters that are not known; whether it told one for each character."""
     known = _known[bold]
-    for first, last in _stretches(k for k, key in enumerate(keys) if key not in known):
-        start, end = max(first - 2 * REACH, 0), last + 2 * REACH + 2
-        learnt = list(_shaped(line[start:end], bold))
-        if len(learnt) + 1 != len(line[start:end]):
+    for places in _together([k for k, key in enumerate(keys) if key not in known], keys):
+        start = max(places[0] - _left(keys[places[0]]), 0)
+        stretch = line[start : places[-1] + _right(keys[places[-1]]) + 1]
+        learnt = list(_shaped(stretch, bold))
+        if len(learnt) + 1 != len(stretch):
             return False
-        known.update((keys[k], learnt[k - start]) for k in range(first, last + 1))
+        known.update((keys[k], learnt[k - start]) for k in places)
     return True
 
 
@@ -98,14 +99,24 @@ def _keys(line: str) -> list[Key]:
     return found
 
 
-def _stretches(places: Iterable[int]) -> list[tuple[int, int]]:
-    """First and last of the places near one another: they are shaped together."""
-    found: list[tuple[int, int]] = []
+def _left(key: Key) -> int:
+    """How many letters before its own the shaper is to see."""
+    return 0 if isinstance(key, str) else 3 * REACH
+
+
+def _right(key: Key) -> int:
+    """How many letters after its own the shaper is to see."""
+    return 1 if isinstance(key, str) else len(key[1]) + 2 * REACH
+
+
+def _together(places: list[int], keys: list[Key]) -> list[list[int]]:
+    """The places of letters that are shaped together, for the shaper is to see the same ones beside them."""
+    found: list[list[int]] = []
     for k in places:
-        if found and k - found[-1][1] <= 2 * REACH:
-            found[-1] = found[-1][0], k
+        if found and k - _left(keys[k]) <= found[-1][-1] + _right(keys[found[-1][-1]]):
+            found[-1].append(k)
         else:
-            found.append((k, k))
+            found.append([k])
     return found
 
 
