@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -22,6 +23,9 @@ STEP = 0.2
 
 STARTS = 5
 FACES, LEVEL = 2000, 3
+DRAGGED = (1000, 700, 1300, 400, 1600)
+"""Control points that are dragged, one after the other."""
+
 
 Row: TypeAlias = tuple[str, float, float | None, float, str]
 
@@ -95,6 +99,33 @@ class Pair:
             self.app.processEvents()
         return time.process_time() - start
 
+    def both(self, wish: Callable[[], object]) -> tuple[float, float]:
+        """The same, and the seconds that pass meanwhile."""
+        self.app.processEvents()
+        start = time.perf_counter()
+        return self.until_drawn(wish), time.perf_counter() - start
+
+    @contextmanager
+    def holding(self, vertex: int) -> Iterator[Callable[[float, float], None]]:
+        """A control point of the leading view in the hand; what is given moves it so many pixels right and down."""
+        from PySide6.QtCore import QEvent, QPointF, Qt
+        from PySide6.QtGui import QMouseEvent
+
+        view, state = self.window.viewport, self.session.state
+        (x, y, w, h), seen = view.areas()[0], view.cameras()[0]
+        assert seen is not None
+        right, down, _ = seen.project(state.trace(state.now.lead).control.points[vertex], w, h)[0]
+
+        def send(kind: QEvent.Type, button: Qt.MouseButton, dx: float = 0.0, dy: float = 0.0) -> None:
+            at, none = QPointF(x + right + dx, y + down + dy), Qt.KeyboardModifier.NoModifier
+            held = Qt.MouseButton.NoButton if kind == QEvent.Type.MouseButtonRelease else Qt.MouseButton.LeftButton
+            self.app.sendEvent(view.canvas, QMouseEvent(kind, at, view.canvas.mapToGlobal(at), button, held, none))
+
+        send(QEvent.Type.MouseButtonPress, Qt.MouseButton.LeftButton)
+        yield lambda dx, dy: send(QEvent.Type.MouseMove, Qt.MouseButton.NoButton, dx, dy)
+        send(QEvent.Type.MouseButtonRelease, Qt.MouseButton.LeftButton)
+        self.wait(0.3)
+
     def empty(self) -> float:
         return self.until_drawn(self.plain.update)
 
@@ -153,15 +184,15 @@ def rest() -> None:
 
 
 def dragging() -> None:
-    """From the pointer to the picture, on a control mesh of 2,000 faces shown at level 3."""
+    """From the mouse to the picture: some points in turn of a control mesh of 2,000 faces that is shown at level 3."""
     import numpy as np
 
     from app.laboratory.bench import put
     from app.laboratory.lab import Lab, Rule
-    from app.state import drag, last
+    from app.state import choose, last
     from subdivision import Grid, Mesh
 
-    pair = Pair()
+    pair = Pair(control=True)
     n, m = 40, FACES // 40
     grid = Grid(n + 1, m + 1)
     topology = grid.mesh()
@@ -169,16 +200,23 @@ def dragging() -> None:
     points = np.stack([x.ravel(), y.ravel(), 0.2 * np.sin(4 * x.ravel()) * np.cos(3 * y.ravel())], axis=1)
     pair.session.do(put, Lab("sheet", Mesh(topology, points), (Rule("catmull-clark", telling="stencils"),), LEVEL))
     pair.session.do(last)
-    pair.wait(2.0)
-    vertex = len(points) // 2
-    times, empties = [], []
-    for k in range(30):
-        to = tuple(float(v) for v in points[vertex] + [0, 0, 0.01 * k])
-        times.append(pair.until_drawn(lambda to=to: pair.session.do(drag, vertex, to)))
-        empties.append(pair.empty())
     shown = pair.session.state.trace(pair.session.state.now.lead)
     n_faces = shown.topology_at(len(shown.stages)).n_faces
-    say(f"pointer to picture, {FACES:,} faces at level {LEVEL} ({n_faces:,})", *medians(times[3:], empties[3:]), 2.0)
+    what = f"{FACES:,} faces at level {LEVEL} ({n_faces:,})"
+    for words, is_on in (("", False), (" with all its control points", True)):
+        ours, theirs = [], []
+        for vertex in DRAGGED:
+            pair.session.do(choose, control=True)  # what is not shown cannot be taken hold of
+            pair.wait(1.5)
+            with pair.holding(vertex) as move:
+                pair.session.do(choose, control=is_on)
+                for k in range(1, 9):
+                    ours.append(pair.both(lambda k=k: move(5 * k, -3 * k)))
+                    theirs.append(pair.both(pair.plain.update))
+        assert len(pair.session.state.edits) == len(DRAGGED)
+        for kind, bound, at in (("", 2.0, 0), (", by the clock on the wall", float("inf"), 1)):
+            times = ([each[at] for each in found] for found in (ours, theirs))
+            say(f"mouse to picture, {what}{words}{kind}", *medians(*times), bound)
     pair.close()
 
 
