@@ -3,8 +3,8 @@
 The first levels are kernels, one after the other.  Where the rest is deep, a table for each
 kind of face makes it at once; a small mesh has one table for everything.  Dual schemes have
 steps of their own, and tables for each kind of corner; so have those that flip edges, and the
-butterfly, for each kind of triangle.  Schemes that have none, and the butterfly of open meshes,
-are told in stages, which all of this is tested against.
+butterfly, for each kind of triangle.  Interpolating quads are grids.  Schemes that have none,
+and interpolating ones of open meshes, are told in stages, which all of this is tested against.
 """
 
 from dataclasses import dataclass, replace
@@ -21,6 +21,7 @@ from subdivision.butterfly_tables import butterfly_tables
 from subdivision.corner_blocks import Blocks, blocks
 from subdivision.corner_numbers import Numbering
 from subdivision.corner_steps import CornerStep, Wave
+from subdivision.grids import Grids, grids
 from subdivision.kernels import Kernel, Rows, Rule, assembled, kernel
 from subdivision.later import Later, later
 from subdivision.meshes import as_mesh
@@ -45,7 +46,9 @@ FACES_A_KIND, FINE_FACES_A_KIND = 6, 2_000
 SMALL, SMALL_ENOUGH = 16, 8_000
 """Control points, and points made of them, up to which one dense matrix is the fastest plan."""
 
-AnyStep: TypeAlias = Kernel | Later | CornerStep | Blocks | MiddleStep | MiddleTables | Butterfly | Rows | Step | Tables
+AnyStep: TypeAlias = (
+    Kernel | Later | CornerStep | Blocks | Grids | MiddleStep | MiddleTables | Butterfly | Rows | Step | Tables
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,9 +92,9 @@ class Plan:
     def numbers(self) -> Indices:
         """(n_vertices,) int: where the points are that the stages number 0, 1, 2, ..."""
         numbers = np.arange(self.topology.n_vertices)
-        if self.steps and isinstance(self.steps[-1], Tables | Blocks):
+        if self.steps and isinstance(self.steps[-1], Tables | Blocks | Grids):
             last = self.steps[-1]
-            stages = last.refined() if isinstance(last, Blocks) else _refined(last)
+            stages = _refined(last) if isinstance(last, Tables) else last.refined()
             numbers[stages.origin] = self.topology.origin
         return frozen(numbers)
 
@@ -120,6 +123,8 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
         return _flipping(t, scheme.middles, levels, scheme.faces_after(t, levels))
     if isinstance(t, Topology) and scheme.beside and is_swift(t, scheme):
         return _butterfly(t, scheme.beside, levels, scheme.faces_after(t, levels))
+    if in_grids := _grids(t, scheme, levels):
+        return Plan(in_grids.topology, (in_grids,))
     if rule is None or not isinstance(t, Topology) or scheme.refinement is None:
         return _staged(t, scheme, levels)
     fine = scheme.refinement.faces(t, levels) if levels else 0
@@ -206,6 +211,13 @@ def _butterfly(t: Topology, beside: Beside, levels: int, fine: int) -> Plan:
         steps.append(step)
         t = step.topology
     return Plan(t, tuple(steps))
+
+
+def _grids(t: Connectivity, scheme: Scheme, levels: int) -> Grids | None:
+    """All steps at once, if there are many points; a single one numbers them as the stages do, and may be small."""
+    if not isinstance(t, Topology) or scheme.tension is None or levels == 0:
+        return None
+    return grids(t, scheme.tension, levels) if levels == 1 or scheme.faces_after(t, levels) > WORTH_TABLES else None
 
 
 def _staged(t: Connectivity, scheme: Scheme, levels: int) -> Plan:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 
 from subdivision.corner_numbers import Numbering
 from subdivision.exact import Exact
@@ -49,6 +50,8 @@ class Scheme:
     beside : (valence, steps round) -> number, optional
         Likewise of the butterfly: what the point beside an extraordinary vertex holds of the neighbour so far round
         from its own.
+    tension : number, optional
+        Likewise of an interpolating scheme of quads: of the curve that it is in both directions.
     limit : Connectivity -> Stage, optional
         Points to where they tend to.
     tangents : Topology -> (Operator, Operator), optional
@@ -67,6 +70,7 @@ class Scheme:
     numbering: Numbering | None = None
     middles: Callable[[int], Exact | int] | None = None
     beside: Callable[[int, int], Exact | int] | None = None
+    tension: Fraction | None = None
     limit: Callable[[Connectivity], Stage] | None = None
     tangents: Callable[[Topology], tuple[Operator, Operator]] | None = None
 

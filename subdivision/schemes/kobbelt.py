@@ -49,6 +49,7 @@ def kobbelt(tension: Fraction | float = CUBIC) -> Scheme:
         },
         refinement=refine.QUADS,
         rings=2,
+        tension=w,
         limit=every_vertex_stays,
     )
 
