@@ -92,13 +92,13 @@ def test_letters_that_join_or_run_leftwards_are_left_to_the_shaper():
 
 
 def test_the_formulas_set_beforehand_are_those_of_the_lessons_as_mathtext_sets_them():
-    before = formulas.prepared()
+    before = {text: json.loads(box) for text, box in formulas.prepared().items()}
     assert json.loads(json.dumps(met())) == before, "the lessons' formulas have changed: make formulas"
 
 
 def test_a_table_of_another_mathtext_is_not_used(tmp_path, monkeypatch):
-    (tmp_path / "old.json").write_text('{"matplotlib": "1.0", "formulas": {"V": [1, 1, 0, [], []]}}')
-    monkeypatch.setattr(formulas, "TABLE", tmp_path / "old.json")
+    (tmp_path / "old.tsv").write_text("matplotlib 1.0\nV\t[1, 1, 0, [], []]\n")
+    monkeypatch.setattr(formulas, "TABLE", tmp_path / "old.tsv")
     assert formulas.prepared.__wrapped__() == {}
 
 
