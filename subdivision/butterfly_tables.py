@@ -6,13 +6,11 @@ the next level.  Round a triangle that a step has made, only the first corner ma
 extraordinary, and from there on no other vertex is near enough to matter.
 """
 
-from functools import lru_cache
-
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, taken
+from subdivision.arrays import Indices, taken
 from subdivision.butterfly_steps import Beside, butterfly_step
-from subdivision.poles import pole
+from subdivision.poles import Table, by_valence, poles, rows, shown
 from subdivision.tables import Tables, laid_out
 from subdivision.templates import descendants, template
 from subdivision.topology import Topology
@@ -38,12 +36,11 @@ def butterfly_tables(t: Topology, depth: int, beside: Beside, at_most: int) -> T
     if valences[-1] > LARGEST_FAN or len(valences) > at_most:
         return None
     ends = np.cumsum(present[valences])
-    rings, tables = [], []
-    for n, some in zip(valences, np.split(faces, ends[:-1]), strict=True):
-        walks, table = _table(n or 6, depth, beside)
-        rings.append(_ring(t, some, n or 6)[walks])
-        tables.append(table)
-    return laid_out(t, depth, faces, np.concatenate([[0], ends]), rings, tables)
+    kinds = [n or 6 for n in valences]
+    tables = by_valence(_computed, kinds, depth, beside)
+    alike = zip(kinds, np.split(faces, ends[:-1]), tables, strict=True)
+    rings = [_ring(t, some, n)[walks] for n, some, (walks, _) in alike]
+    return laid_out(t, depth, faces, np.concatenate([[0], ends]), rings, [table for _, table in tables])
 
 
 def _ring(t: Topology, faces: Indices, n: int) -> Indices:
@@ -62,24 +59,14 @@ def _ring(t: Topology, faces: Indices, n: int) -> Indices:
     return np.stack(found)
 
 
-@lru_cache(maxsize=128)
-def _table(n: int, depth: int, beside: Beside) -> tuple[Indices, Floats]:
-    """Which of the ring are read, and (n_points, n_read) float: the points of the template made of them.
-
-    The first triangle of a pole of valence ``n`` shows it.
-    """
-    t = pole(n, splits=1)
-    step = butterfly_step(t, beside)
-    steps = []
-    for _ in range(depth - 1):
-        step = step.after().step
-        steps.append(step)
-    small, _ = descendants(3, t.n_faces, depth)
-    own = step.topology.origin.reshape(-1, 3)[small].ravel()[template(3, depth).first]
-    rows = steps[-1].assembled().matrix[own]
-    for step in reversed(steps[:-1]):
-        rows = rows @ step.assembled().matrix
-    ring, walks = np.unique(_ring(t, np.zeros(1, dtype=np.intp), n)[:, 0], return_index=True)
-    table = rows[:, ring].toarray()
-    read = table.any(axis=0)
-    return walks[read], np.ascontiguousarray(table[:, read])
+def _computed(valences: list[int], depth: int, beside: Beside) -> list[Table]:
+    """The points of the template round poles, from the rings."""
+    t, first = poles(valences, splits=1)
+    steps = [butterfly_step(t, beside).after()]
+    while len(steps) < depth - 1:
+        steps.append(steps[-1].after())
+    small, each = descendants(3, t.n_faces, depth)
+    corners = steps[-1].topology.origin.reshape(-1, 3)[small + each * first[:, None]]
+    own = corners.reshape(len(valences), -1)[:, template(3, depth).first]
+    rings = [_ring(t, face, n)[:, 0] for n, face in zip(valences, first[:, None], strict=True)]
+    return shown(rows(own.ravel(), steps), rings)

@@ -12,14 +12,14 @@ each by its own valence: from there on no valence matters but that of the first 
 """
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
 from subdivision import refine_sqrt3
 from subdivision.arrays import Floats, Indices, taken
 from subdivision.middle_steps import MiddleStep, Reach, by_count
-from subdivision.poles import pole
+from subdivision.poles import Table, by_valence, poles, rows, shown
 from subdivision.topology import Topology
 
 AT_ONCE = 512
@@ -38,7 +38,7 @@ class MiddleTables:
 
     Attributes
     ----------
-    blocks : (((n,) int, (n, n_ring) int, (n_ring, n_own) float), ...)
+    blocks : (((n,) int, (n, n_read) int, (n_own, n_read) float), ...)
         For each kind the triangles, what round them is read, and the table.
     """
 
@@ -62,9 +62,9 @@ class MiddleTables:
         for faces, ring, table in self.blocks:
             for begin in range(0, len(faces), AT_ONCE):
                 some = slice(begin, begin + AT_ONCE)
-                own = np.empty((len(faces[some]), table.shape[1], d))
+                own = np.empty((len(faces[some]), len(table), d))
                 for i, column in enumerate(columns):
-                    own[:, :, i] = taken(column, ring[some]) @ table
+                    own[:, :, i] = taken(column, ring[some]) @ table.T
                 for level, (first, n) in zip(levels, _levels(self.depth), strict=True):
                     level[faces[some]] = own[:, first : first + n]
         return made
@@ -97,9 +97,8 @@ def middle_tables(step: MiddleStep, depth: int, at_most: int) -> MiddleTables | 
     if len(present) > at_most or not all(n in VALENCES for n in present):
         return None
     blocks = []
-    for n in present:
+    for n, (walks, table) in zip(present, by_valence(_computed, present, depth, step.reach), strict=True):
         faces = np.flatnonzero(counts == n)
-        walks, table = _table(n, depth, step.reach)
         blocks.append((faces, _ring(t, faces, n)[:, walks], table))
     return MiddleTables(step, depth, tuple(blocks))
 
@@ -134,21 +133,13 @@ def _ring(t: Topology, faces: Indices, n: int) -> Indices:
     return np.stack(found, axis=1)
 
 
-@lru_cache(maxsize=128)
-def _table(n: int, depth: int, reach: Reach) -> tuple[Indices, Floats]:
-    """Which of the ring of a block are read, and (n_read, n_own) float: the block made of them.
-
-    The first triangle of a pole of valence ``n`` shows it.
-    """
-    t = pole(n, splits=2)
+def _computed(valences: list[int], depth: int, reach: Reach) -> list[Table]:
+    """The blocks of the first triangles at poles, from the rings."""
+    t, first = poles(valences, splits=2)
     steps = [MiddleStep(t, reach)]
     while len(steps) < depth:
         steps.append(MiddleStep(steps[-1].topology, reach))
-    own = np.concatenate([step.coarse.n_vertices + np.arange(3**level) for level, step in enumerate(steps)])
-    rows = steps[-1].assembled().matrix[own]
-    for step in reversed(steps[1:-1]):
-        rows = rows @ step.assembled().matrix
-    ring, walks = np.unique(_ring(t, np.zeros(1, dtype=np.intp), n)[0], return_index=True)
-    table = rows[:, ring].toarray().T
-    read = table.any(axis=1)
-    return walks[read], np.ascontiguousarray(table[read])
+    levels = zip(steps, _levels(depth), strict=True)
+    own = [step.coarse.n_vertices + n * first[:, None] + np.arange(n) for step, (_, n) in levels]
+    rings = [_ring(t, face, n)[0] for n, face in zip(valences, first[:, None], strict=True)]
+    return shown(rows(np.concatenate(own, axis=1).ravel(), steps[1:]), rings)

@@ -15,6 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
+from subdivision import poles
 from subdivision.arrays import Floats, Indices, Mask, short, taken
 from subdivision.kernels import Rule, kernel
 from subdivision.mirrors import seen_mirrored
@@ -211,6 +212,7 @@ def _tables(found: Sorted, depth: int, rule: Rule) -> list[Floats]:
 def forget() -> None:
     """Remember no tables, as a new process does."""
     _remembered.clear()
+    poles.forget()
 
 
 def _computed(kinds: tuple[Kind, ...], depth: int, rule: Rule) -> list[Floats]:
