@@ -9,7 +9,7 @@ make stays in the cache.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from scipy.sparse import _sparsetools
@@ -47,28 +47,41 @@ class Faces:
         """All half-edges, in their order."""
         return np.arange(len(self.next), dtype=np.int32)
 
-    def sum(self, of_halfedges: Floats, out: Floats) -> None:
-        """Add what the half-edges of each face have."""
-        (n, d), ones = of_halfedges.shape, np.ones(len(self.places))
+    def sum(self, weights: Floats, of_halfedges: Floats, out: Floats) -> None:
+        """Add what the half-edges of each face have, times their ``weights``."""
+        n, d = of_halfedges.shape
         _sparsetools.csr_matvecs(
-            len(out), n, d, self.start, self.places, ones, of_halfedges.reshape(-1), out.reshape(-1)
+            len(out), n, d, self.start, self.places, weights, of_halfedges.reshape(-1), out.reshape(-1)
         )
 
     def add(self, weight: float, of_halfedges: Floats, at: Small, out: Floats) -> None:
         """Add ``weight`` times what each half-edge has to ``out`` ``at`` it."""
         n, d = of_halfedges.shape
-        _sparsetools.coo_matmat_dense(
-            n, d, at, self.places, np.full(n, weight), of_halfedges.reshape(-1), out.reshape(-1)
-        )
+        weights = _constant(weight, n)
+        _sparsetools.coo_matmat_dense(n, d, at, self.places, weights, of_halfedges.reshape(-1), out.reshape(-1))
+
+
+@lru_cache(maxsize=64)
+def _constant(weight: float, n: int) -> Floats:
+    """``n`` times the same."""
+    return np.full(n, weight)
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """Some faces of a mesh, their half-edges, and how these hang together."""
+    """Some faces of a mesh, their half-edges, and how these hang together.
+
+    Attributes
+    ----------
+    own, brought : (n_faces, 1), (n_halfedges,) float
+        How much the point of a face holds of itself now, and of what each of its half-edges brings.
+    """
 
     faces: slice
     halfedges: slice
     inside: Faces
+    own: Floats
+    brought: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,18 +141,19 @@ def later(before: Topology, coarse: Topology, rule: Rule) -> Later:
     counts = np.bincount(origin, minlength=before.n_vertices)
     corner = rule.corners(counts)
     own = 1 - rule.brought * corner * counts
-    return Later(before, coarse, rule, tuple(_runs(before)), origin, edge, half, own, corner, sharp_rows(coarse))
+    return Later(before, coarse, rule, tuple(_runs(before, rule)), origin, edge, half, own, corner, sharp_rows(coarse))
 
 
-def _runs(t: Topology) -> Iterator[Run]:
+def _runs(t: Topology, rule: Rule) -> Iterator[Run]:
     ends = np.cumsum(t.face_sizes)
     cuts = np.unique(np.append(np.searchsorted(ends, np.arange(AT_ONCE, ends[-1], AT_ONCE)), t.n_faces - 1)) + 1
     first, start, inside = 0, 0, None
     for last, end in zip(cuts.tolist(), ends[cuts - 1].tolist(), strict=True):
         sizes = t.face_sizes[first:last]
         if inside is None or not np.array_equal(np.diff(inside.start), sizes):
-            inside = Faces.of(sizes)
-        yield Run(slice(first, last), slice(start, end), inside)
+            inside, corner = Faces.of(sizes), rule.corners(sizes)
+            own, brought = (1 - 2 * corner * sizes)[:, None], np.repeat(corner, sizes)
+        yield Run(slice(first, last), slice(start, end), inside, own, brought)
         first, start = last, end
 
 
@@ -149,7 +163,6 @@ def _quads(step: Later, points: Floats, made: Floats) -> None:
     v, f, e = np.split(points, [V, V + F])
     v_made, f_made, e_made, centres, outer, inner = np.split(made, np.cumsum([V, F, E, H, 2 * E]))
     np.multiply(e, 1 - 8 * each, out=e_made)
-    f_made.fill(0)
     outer.fill(0)
     for run in step.runs:
         origin, edge, half = (x[run.halfedges] for x in (step.origin, step.edge, step.half))
@@ -171,11 +184,9 @@ def _quads(step: Later, points: Floats, made: Floats) -> None:
         ahead += corner
         inside.add(each, ahead, edge, e_made)
         along += centre
-        inside.add(1, along, origin, v_made)
-        inside.sum(along, f_made[run.faces])
-    weight = step.rule.corners(t.face_sizes)
-    f_made *= weight[:, None]
-    f_made += (1 - 2 * weight * t.face_sizes)[:, None] * f
+        inside.add(1.0, along, origin, v_made)
+        np.multiply(f[run.faces], run.own, out=f_made[run.faces])
+        inside.sum(run.brought, along, f_made[run.faces])
 
 
 def _triangles(step: Later, points: Floats, made: Floats) -> None:
@@ -190,7 +201,7 @@ def _triangles(step: Later, points: Floats, made: Floats) -> None:
         inside, across = run.inside, inner[run.halfedges]
         corner, along = taken(v, origin), taken(e, edge)
         behind, ahead = taken(along, inside.prev), taken(along, inside.next)
-        inside.add(1, along, origin, v_made)
+        inside.add(1.0, along, origin, v_made)
         inside.add(1 / 8, ahead, half ^ 1, outer)
         np.add(along, behind, out=across)
         across *= 3

@@ -1,6 +1,6 @@
 """Every formula of the lessons into the table of those set beforehand: ``python -m tests.formulas``.
 
-What is shown at each step and on the way there counts, and what was tried for the boxes of diagrams.
+What is shown at each step and on the way there counts, and what boxes of diagrams say where they have more room.
 """
 
 import json
@@ -15,10 +15,12 @@ from app.draw import formulas
 from app.draw import type as type_
 from app.draw.compose import compose
 from app.draw.layout import overlay
-from app.gui.ahead import WAY
+from app.draw.picture import Diagram, Picture
 from app.state import State, at_stop, start, stops
 
-SIZES = (1920, 1080), (1000, 560)
+SIZE = 1920, 1080
+WAY = 0.0, 0.5
+"""How many stages before a step: at it, and when its boxes say other words."""
 
 
 def shown() -> Iterator[State]:
@@ -26,7 +28,7 @@ def shown() -> Iterator[State]:
     for lesson in lessons.built_in():
         for stop in stops(lesson):
             there = at_stop(start(lesson), stop)
-            yield from (replace(there, at=max(there.at - before, there.now.start)) for before in (0.0, *WAY))
+            yield from (replace(there, at=max(there.at - before, there.now.start)) for before in WAY)
 
 
 def met() -> dict[str, formulas.Box]:
@@ -42,16 +44,22 @@ def met() -> dict[str, formulas.Box]:
     with mock.patch.object(formulas, "prepared", dict), mock.patch.object(formulas, "boxed", noted):
         for state in shown():
             type_.measure(state.now.formula, 1.0)
-            for size in SIZES:
-                overlay(compose(state), *size)
+            picture = compose(state)
+            overlay(picture, *SIZE)
+            for text in in_boxes(picture):
+                type_.measure(text, 1.0)
     return found
 
 
+def in_boxes(picture: Picture) -> set[str]:
+    """All that its diagrams may say, in windows of any size."""
+    diagrams = (pane.content for pane in picture.panes if isinstance(pane.content, Diagram))
+    return {line for each in diagrams for box in each.boxes for text in box.texts for line in text.splitlines()}
+
+
 def main() -> None:
-    found = sorted(met().items())
-    rows = ",\n".join(f"{json.dumps(text)}: {json.dumps(box, separators=(',', ':'))}" for text, box in found)
-    head = f'"matplotlib": {json.dumps(matplotlib.__version__)}'
-    formulas.TABLE.write_text(f'{{{head},\n"formulas": {{\n{rows}\n}}}}\n', encoding="utf-8")
+    rows = sorted(f"{text}\t{json.dumps(box, separators=(',', ':'))}\n" for text, box in met().items())
+    formulas.TABLE.write_text(f"matplotlib {matplotlib.__version__}\n{''.join(rows)}", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from app import ASSETS
 from app.draw.letters import Glyph
 from subdivision.arrays import Floats, Indices
 
-TABLE = ASSETS / "formulas.json"
+TABLE = ASSETS / "formulas.tsv"
 
 MATHEMATICS, MATHEMATICS_SIZE = "stix", 1.12
 """Its letters are lower than Inter's: set larger, both look alike."""
@@ -46,7 +46,8 @@ _one_at_a_time = Lock()
 @lru_cache(maxsize=2048)
 def formula(text: str) -> Outlined:
     """A formula in type of size 1."""
-    width, height, descent, glyphs, bars = prepared().get(text) or boxed(text)
+    box: Box = json.loads(prepared()[text]) if text in prepared() else boxed(text)
+    width, height, descent, glyphs, bars = box
     vertices: list[Floats] = [np.zeros((0, 2))]
     codes: list[Indices] = [np.zeros(0, dtype=np.uint8)]
     for typeface, size, number, x, y in glyphs:
@@ -61,11 +62,11 @@ def formula(text: str) -> Outlined:
 
 
 @cache
-def prepared() -> dict[str, Box]:
-    """The formulas that were set beforehand; none where mathtext is of another version."""
-    told = json.loads(TABLE.read_bytes()) if TABLE.exists() else {}
-    is_alike = told.get("matplotlib") == matplotlib.__version__
-    return told["formulas"] if is_alike else {}
+def prepared() -> dict[str, str]:
+    """The boxes that were set beforehand, as JSON; none where mathtext is of another version."""
+    head, *rows = TABLE.read_text(encoding="utf-8").splitlines() if TABLE.exists() else [""]
+    is_alike = head == f"matplotlib {matplotlib.__version__}"
+    return dict(row.split("\t") for row in rows) if is_alike else {}
 
 
 def boxed(text: str) -> Box:
