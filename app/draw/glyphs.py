@@ -25,6 +25,9 @@ FINE, COARSE, HASTY = 32, 12, 4
 """Corners to the outline of a ball: where markers are few and large, where they are many and small, and where those
 must follow the hand."""
 
+QUICK, FEWEST = 0.35, 8
+"""The part of these corners that there is while a processor draws what moves; at least so many."""
+
 
 def resolution(n: int, *, is_hasty: bool = False) -> int:
     """Corners to the outline of each of ``n`` markers: the graphics card's work grows slower than their number."""
@@ -40,6 +43,7 @@ class Glyphs:
         self.drawn += [_Instances(partial(_sphere, HALO_RADIUS), rim=True)] if shape is Shape.HALO else []
         self.faint = _Instances(partial(_glyph, shape), translucent=True)
         self._largest = 0.0
+        self._corners, self._is_quick = FINE, False
 
     def join(self, renderer: Any, over: Any) -> None:
         for instances in self.drawn:
@@ -56,6 +60,18 @@ class Glyphs:
             instances.uniforms.SetUniformf("lift", LIFT * self._largest * depth)
             instances.uniforms.SetUniformf("perspective", perspective)
 
+    def hasten(self, is_hasty: bool) -> None:
+        """Draw each marker from fewer triangles."""
+        self._is_quick = is_hasty
+        self._model()
+
+    def _model(self) -> None:
+        part = QUICK if self._is_quick else 1.0
+        corners = min(self._corners, max(round(part * self._corners), FEWEST))
+        for instances in self.drawn:
+            instances.model(corners)
+        self.faint.model(min(corners, COARSE))
+
     def show(self, markers: Sequence[Markers], *, solid: bool, is_hasty: bool = False) -> None:
         if not markers and not self.faint.actor.GetVisibility():
             return
@@ -64,13 +80,15 @@ class Glyphs:
         radius = [m.radius[w] for m, w in zip(markers, which, strict=True)]
         colour = [vtk_arrays.rgba(m.colour, m.opacity[w]) for m, w in zip(markers, which, strict=True)]
         n = sum(map(len, points))
-        corners, some = resolution(n, is_hasty=is_hasty), n > 0
+        some = n > 0
         self._largest = max((float(r.max()) for r in radius if len(r)), default=0.0)
+        if some:
+            self._corners = resolution(n, is_hasty=is_hasty)
+            self._model()
         for instances in (*self.drawn, self.faint):
             instances.actor.SetVisibility(some)
             if some:
                 faint = HIDDEN if instances is self.faint else 1.0
-                instances.model(min(corners, COARSE) if instances is self.faint else corners)
                 instances.show(np.vstack(points), np.concatenate(radius), np.vstack(colour) * [1, 1, 1, faint])
 
 

@@ -109,9 +109,15 @@ class ScenePainter:
             renderer.DrawOff()
 
     def hasten(self, is_hasty: bool) -> None:
-        """Blend what is translucent as it comes and not by weight, which takes as long as all the rest."""
+        """Draw quickly what moves.
+
+        Markers have fewer triangles; what is translucent is blended as it comes and not by weight, which takes as long
+        as all the rest.
+        """
         for renderer in (self.renderer, self._over):
             renderer.SetUseOIT(not is_hasty)
+        for glyphs in self._markers.values():
+            glyphs.hasten(is_hasty)
 
     def background(self, colour: Colour) -> None:
         self.renderer.SetBackground(*colour)

@@ -79,6 +79,7 @@ class Viewport(QWidget):
         self.canvas: Any = QWidget(self) if self._is_soft else QOpenGLWidget(self)
         self._flat = Flat(self, self._draw)
         self._is_stale = self._is_hasty = False
+        self._drawn_at: tuple[int, bool] | None = None
         self.narration = Narration(session, self)
         self.pointer = Pointer(self)
         self._calm = QTimer(self, singleShot=True, interval=CALM)
@@ -299,9 +300,11 @@ class Viewport(QWidget):
 
     def _draw_at(self, *, samples: int, is_hasty: bool) -> None:
         """How well the picture is drawn from now on."""
-        self._plotter.render_window.SetMultiSamples(samples)
-        for painter in self._painters:
-            painter.hasten(is_hasty)
+        if self._drawn_at != (samples, is_hasty):
+            self._drawn_at = samples, is_hasty
+            self._plotter.render_window.SetMultiSamples(samples)
+            for painter in self._painters:
+                painter.hasten(is_hasty)
 
     # -- the hand -------------------------------------------------------------------------------
 
