@@ -19,8 +19,8 @@ from app.draw.picture import Diagram, Picture
 from app.state import State, at_stop, start, stops
 
 SIZE = 1920, 1080
-WAY = 0.0, 0.5
-"""How many stages before a step: at it, and when its boxes say other words."""
+WAY = 0.0, 0.9
+"""How many stages before a step: at it, and when its boxes say what they said before."""
 
 
 def shown() -> Iterator[State]:
