@@ -2,24 +2,38 @@
 
 from collections.abc import Iterable
 from functools import lru_cache
+from math import ceil, log
 
-from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QPainter, QPainterPath, QPen, QPolygonF
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QByteArray, QDataStream, QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter, QPainterPath, QPen, QPixmap, QPolygonF
 
 from app.draw.flat import FLAT, Disc, Polygon
 from app.draw.picture import Colour
 from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, outline
 from app.gui.look import colour
+from subdivision.arrays import Floats, Indices
+
+KINDS = MOVE, LINE, CURVE, CUBIC, CLOSE = 1, 2, 3, 4, 79
+"""How matplotlib calls the vertices of an outline."""
+
+GROWTH = 2**0.25
+"""From one size of stamps to the next."""
+
+EDGE = 0.3
+"""Room for what reaches beyond the extent of type, relative to its size."""
 
 
-def paint(painter: QPainter, primitives: Iterable[Primitive]) -> None:
-    """Paint everything in order."""
+def paint(painter: QPainter, primitives: Iterable[Primitive], *, is_hasty: bool = False) -> None:
+    """Paint everything in order; in haste type is stamped."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, is_hasty)
     for each in primitives:
         match each:
             case Text():
-                type_(painter, each)
+                (stamp if is_hasty else type_)(painter, each)
             case Plate():
                 _plate(painter, each)
             case Stroke():
@@ -45,30 +59,69 @@ def type_(painter: QPainter, text: Text) -> None:
     painter.restore()
 
 
+def stamp(painter: QPainter, text: Text) -> None:
+    """Words and mathematics as an image made before, perhaps a little larger: for as long as they move."""
+    scale = painter.device().devicePixelRatio()
+    size = GROWTH ** ceil(log(text.size * scale, GROWTH))
+    image, left, top = _stamp(text.text, text.bold, text.colour, text.halo, size)
+    part = text.size / size
+    x = text.x - ANCHOR[text.align] * measure(text.text, text.size, text.bold)[0]
+    painter.setOpacity(text.opacity)
+    where = QRectF(x - part * left, text.y - part * top, part * image.width(), part * image.height())
+    painter.drawPixmap(where, image, QRectF(image.rect()))
+    painter.setOpacity(1.0)
+
+
+@lru_cache(maxsize=1024)
+def _stamp(words: str, bold: bool, ink: Colour, halo: Colour | None, size: float) -> tuple[QPixmap, int, int]:
+    """The image of type of a size, and where in it the type begins: right and down from its corner."""
+    width, ascent, descent = measure(words, size, bold)
+    room = ceil(EDGE * size) + 1
+    left, top = room, ceil(ascent) + room
+    image = QPixmap(ceil(width) + 2 * room, top + ceil(descent) + room)
+    image.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(image)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    type_(painter, Text(left, top, words, size, ink, bold=bold, halo=halo))
+    painter.end()
+    return image, left, top
+
+
 @lru_cache(maxsize=1024)
 def glyphs(text: str, bold: bool = False) -> QPainterPath:
     """The outline of type of size 1, y downwards."""
     vertices, codes = outline(text, 1.0, bold)
+    elements = _elements(vertices * (1.0, -1.0), codes)
     path = QPainterPath()
+    if len(elements):
+        ends = np.array([0, Qt.FillRule.WindingFill.value], dtype=">i4").tobytes()
+        told = np.array(len(elements), dtype=">i4").tobytes() + elements.tobytes() + ends
+        (
+            QDataStream(QByteArray(told)) >> path
+        )  # as Qt keeps paths: a hundred times quicker than a call for each of its points
     path.setFillRule(Qt.FillRule.WindingFill)
-    at = [QPointF(x, -y) for x, y in vertices]
-    k = 0
-    while k < len(codes):
-        match int(codes[k]):
-            case 1:
-                path.moveTo(at[k])
-            case 2:
-                path.lineTo(at[k])
-            case 3:
-                path.quadTo(at[k], at[k + 1])
-                k += 1
-            case 4:
-                path.cubicTo(at[k], at[k + 1], at[k + 2])
-                k += 2
-            case 79:
-                path.closeSubpath()
-        k += 1
     return path
+
+
+def _elements(points: Floats, codes: Indices) -> npt.NDArray[np.void]:
+    """Lines and cubic curves as Qt keeps them, of matplotlib's codes: a quadratic curve is a cubic one too."""
+    control, starts = np.flatnonzero(codes == CURVE)[::2], np.flatnonzero(codes == MOVE)
+    begin = starts[np.searchsorted(starts, np.arange(len(codes)), side="right") - 1]
+    places = np.where((codes == CLOSE)[:, None], points[begin], points)
+    is_still = ((codes == LINE) | (codes == CLOSE)) & (places == np.roll(places, 1, axis=0)).all(axis=1)
+    thirds = (places[[control - 1, control + 1]] + 2 * places[control]) / 3
+    kinds = np.choose(np.searchsorted(KINDS, codes), [0, 1, 3, 3, 1])
+    kinds[np.flatnonzero(codes == CUBIC)[::3]] = 2
+    count = np.where(is_still, 0, 1)
+    count[control] = 2
+    found = np.zeros(count.sum(), dtype=[("kind", ">i4"), ("x", ">f8"), ("y", ">f8")])
+    at = np.repeat(places, count, axis=0)
+    kind = np.repeat(kinds, count)
+    first = (np.cumsum(count) - count)[control]
+    at[first], at[first + 1] = thirds
+    kind[first] = 2
+    found["kind"], found["x"], found["y"] = kind, at[:, 0], at[:, 1]
+    return found
 
 
 def mark(painter: QPainter, mark: Mark) -> None:
