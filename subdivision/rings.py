@@ -1,4 +1,4 @@
-"""Faces with the ring of faces round them, sorted into kinds: faces of one kind become the same surface, linearly.
+"""Faces with the ring of faces round them, of one kind or another: faces of one kind become the same surface, linearly.
 
 After a step all faces are alike but for the fans round their corners: how many faces there
 are, whether the mesh ends, what is sharp.  A ``Kind`` of face is the fans of its corners; it
@@ -11,12 +11,8 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, Mask, distinct, taken
-from subdivision.sharp_rows import creases
+from subdivision.arrays import Indices, Mask, taken, turned
 from subdivision.topology import Topology
-
-LARGEST_FAN = 32
-"""Vertices of more faces are too rare, and their rings too large, for a table of their own."""
 
 
 @dataclass(frozen=True)
@@ -75,26 +71,50 @@ class Ring:
         """The corners of ``faces``, laid end to end."""
         return np.array([v for face in self.faces for v in face.vertices], dtype=np.intp)
 
-    def around(self, t: Topology, faces: Indices) -> Indices:
+    def around(self, ways: "Ways", faces: Indices) -> Indices:
         """(n_vertices, n_faces) int: where its vertices are round each of ``faces``."""
         k = len(self.spokes)
         found = np.empty((self.n_vertices, len(faces)), dtype=np.intp)
-        for i in range(k):
-            found[i] = taken(t.origin, k * faces + i)
+        starts = [k * faces + i for i in range(k)]
+        for start, corner in zip(starts, found, strict=False):
+            ways.ahead(0).take(start, out=corner, mode="clip")
         seen = k
         for face in self.faces:
             if face.turn in (1, -2):
-                at = k * faces + face.corner
+                at = starts[face.corner]
             if face.turn == -2:
-                at = taken(t.next, taken(t.twin, at))
-            at = taken(t.twin, taken(t.prev, at)) if face.turn > 0 else taken(t.next, taken(t.twin, at))
-            step = at
-            for vertex in face.vertices[1:]:
-                step = taken(t.next, step)
+                at = taken(ways.right, at)
+            at = taken(ways.left if face.turn > 0 else ways.right, at)
+            for i, vertex in enumerate(face.vertices):
                 if vertex >= seen:
-                    found[vertex] = taken(t.origin, step)
+                    ways.ahead(i).take(at, out=found[vertex], mode="clip")
                     seen += 1
         return found
+
+
+class Ways:
+    """Ways from the half-edges of a mesh, whose faces all have as many corners, to what is near."""
+
+    def __init__(self, t: Topology) -> None:
+        self.t, self.k = t, t.n_halfedges // t.n_faces
+        self._ahead: dict[int, Indices] = {0: t.origin.astype(np.intp, copy=False)}
+
+    @cached_property
+    def left(self) -> Indices:
+        """(n_halfedges,) int: the half-edge that leaves the same vertex next, counter-clockwise."""
+        return turned(self.t.twin.reshape(-1, self.k), -1).ravel()
+
+    @cached_property
+    def right(self) -> Indices:
+        """(n_halfedges,) int: the one before, clockwise."""
+        return taken(self.t.next, self.t.twin)
+
+    def ahead(self, i: int) -> Indices:
+        """(n_halfedges,) int: the corner of its face that is ``i`` further on."""
+        if i not in self._ahead:
+            nearer, by = (i - 1, 1) if i < self.k - 1 else (0, -1)
+            self._ahead[i] = turned(self.ahead(nearer).reshape(-1, self.k), by).ravel()
+        return self._ahead[i]
 
 
 @dataclass(frozen=True)
@@ -196,66 +216,6 @@ def _joined(shape: Shape, name: Hashable) -> Hashable:
     return name
 
 
-@dataclass(frozen=True, eq=False)
-class Sorted:
-    """The faces of a mesh by kind: those of ``kinds[i]`` are ``faces[start[i]:start[i + 1]]``.
-
-    In a mirror that keeps the first corner they are ``kinds[images[i]]``, or none of them where that is -1.
-    """
-
-    kinds: tuple[Kind, ...]
-    images: tuple[int, ...]
-    faces: Indices
-    start: Indices
-
-    def rings(self, t: Topology) -> list[Indices]:
-        """What is round the faces of each kind; kinds whose rings are alike are walked together."""
-        alike: dict[Shape, list[int]] = {}
-        for i, kind in enumerate(self.kinds):
-            alike.setdefault(kind.shape, []).append(i)
-        faces = np.split(self.faces, self.start[1:-1])
-        found = dict[int, Indices]()
-        for shape, some in alike.items():
-            ends = np.cumsum([len(faces[i]) for i in some])
-            together = ring(shape).around(t, np.concatenate([faces[i] for i in some]))
-            found |= zip(some, np.split(together, ends[:-1], axis=1), strict=True)
-        return [found[i] for i in range(len(self.kinds))]
-
-
-def sorted_faces(t: Topology, apart: Mask, at_most: int) -> Sorted | None:
-    """The faces of ``t``, all quads or all triangles; those ``apart`` are never of one kind with others.
-
-    None where there are more than ``at_most`` kinds, or one that cannot be unfolded: with a
-    vertex of two faces, or of very many.
-    """
-    k = t.n_halfedges // t.n_faces
-    counts = np.bincount(t.origin, minlength=t.n_vertices)
-    if counts.max() > LARGEST_FAN:
-        return None
-    code, fans = _fans(t, counts)
-    corners = code.reshape(-1, k)
-    kind = apart.astype(np.intp)
-    for i in range(k):
-        kind = _ranked(kind * len(fans) + corners[:, i])
-        if kind.max() >= at_most:
-            return None
-    order = np.argsort(kind.astype(np.uint16), kind="stable")
-    start = np.concatenate([[0], np.cumsum(np.bincount(kind))])
-    first = corners[order[start[:-1]]].tolist()
-    kinds = tuple(Kind(tuple(fans[c] for c in row)) for row in first)
-    if any(fan.closed and fan.left < 2 for kind in kinds for fan in kind.fans):
-        return None
-    return Sorted(kinds, _images(first, fans), order, start)
-
-
-def _images(kinds: list[list[int]], fans: list[Fan]) -> tuple[int, ...]:
-    """The place of the image of each of ``kinds``, which are told by the numbers of their fans; -1 for none."""
-    numbers = {fan: c for c, fan in enumerate(fans)}
-    image = [numbers.get(fan.mirrored, -1) for fan in fans]
-    places = {tuple(row): i for i, row in enumerate(kinds)}
-    return tuple(places.get(tuple(image[row[-i]] for i in range(len(row))), -1) for row in kinds)
-
-
 def unfolded(kinds: tuple[Kind, ...]) -> tuple[Topology, Indices]:
     """One face of each kind with its ring, side by side in one mesh, the faces themselves first; and who is who.
 
@@ -301,60 +261,3 @@ def _marked(numbers: Indices, n: int) -> Mask:
     mask = np.zeros(n, dtype=bool)
     mask[numbers] = True
     return mask
-
-
-def _fans(t: Topology, counts: Indices) -> tuple[Indices, list[Fan]]:
-    """Which of the fans each corner sees."""
-    code = counts[t.origin]
-    smooth = np.flatnonzero(np.bincount(code))
-    fans = [Fan(int(n) - 1, 0, closed=True) for n in smooth]
-    rank = np.zeros(len(counts) and int(counts.max()) + 1, dtype=np.intp)
-    rank[smooth] = np.arange(len(smooth))
-    code = rank[code]
-    if not t.is_smooth:
-        special = np.zeros(t.n_vertices, dtype=bool)
-        special[creases(t).vertices] = True
-        at = np.flatnonzero(special[t.origin])
-        features = _features(t, at, int(counts.max()))
-        first, which = distinct(features)
-        code[at] = len(fans) + which
-        fans += map(_fan, features[first].tolist())
-    return code, fans
-
-
-def _features(t: Topology, at: Indices, largest: int) -> Floats:
-    """(len(at), 4 + 2 (largest + 1)) float: numbers in a fan, closed or not, and sharpness left and right."""
-    left, right = (np.zeros((len(at), largest + 1)) for _ in range(2))
-    faces = np.zeros((len(at), 2), dtype=np.intp)
-    closed = np.zeros(len(at), dtype=bool)
-    left[:, 0] = t.edge_sharpness[t.edge[at]]
-    here, g = np.arange(len(at)), at
-    for j in range(1, largest + 1):
-        back = t.prev[g]
-        ahead = t.twin[back]
-        closed[here[ahead == at[here]]] = True
-        here, back, ahead = (x[ahead != at[here]] for x in (here, back, ahead))
-        left[here, j] = t.edge_sharpness[t.edge[back]]
-        here, g = here[ahead >= 0], ahead[ahead >= 0]
-        faces[here, 0] = j
-    here = np.flatnonzero(~closed)
-    g = at[here]
-    for j in range(1, largest + 1):
-        across = t.twin[g]
-        here, g = here[across >= 0], t.next[across[across >= 0]]
-        right[here, j] = t.edge_sharpness[t.edge[g]]
-        faces[here, 1] = j
-    return np.column_stack([faces, closed, t.vertex_sharpness[t.origin[at]], left, right])
-
-
-def _fan(features: list[float]) -> Fan:
-    left, right, closed = (int(x) for x in features[:3])
-    first, second = 4, 4 + len(features) // 2 - 2
-    sharpness = (*features[first : first + left + 1 + (not closed)], *features[second + 1 : second + right + 1])
-    return Fan(left, right, bool(closed), sharpness if any(sharpness) else (), features[3])
-
-
-def _ranked(numbers: Indices) -> Indices:
-    """The same numbers with the gaps closed, in the same order."""
-    present = np.bincount(numbers) > 0
-    return (np.cumsum(present) - 1)[numbers]

@@ -19,7 +19,8 @@ from subdivision import poles
 from subdivision.arrays import Floats, Indices, Mask, short, taken
 from subdivision.kernels import Rule, kernel
 from subdivision.mirrors import seen_mirrored
-from subdivision.rings import Kind, Sorted, sorted_faces, unfolded, with_ring
+from subdivision.rings import Kind, unfolded, with_ring
+from subdivision.sorted_faces import Sorted, sorted_faces
 from subdivision.templates import blocks, descendants, template
 from subdivision.topology import Topology
 

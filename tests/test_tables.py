@@ -13,8 +13,8 @@ from subdivision.arrays import Floats
 from subdivision.kernels import Kernel, Rows
 from subdivision.later import Later
 from subdivision.mirrors import seen_mirrored
-from subdivision.rings import sorted_faces
 from subdivision.schemes import CATMULL_CLARK, LOOP, QUAD_CENTROID, SCHEMES, lane_riesenfeld, tensor_product
+from subdivision.sorted_faces import sorted_faces
 from subdivision.stage import Step
 from subdivision.tables import Tables
 from subdivision.templates import descendants, template
