@@ -101,12 +101,12 @@ def _keys(line: str) -> list[Key]:
 
 def _left(key: Key) -> int:
     """How many letters before its own the shaper is to see."""
-    return 0 if isinstance(key, str) else 3 * REACH
+    return 0 if isinstance(key, str) else 2 * REACH
 
 
 def _right(key: Key) -> int:
     """How many letters after its own the shaper is to see."""
-    return 1 if isinstance(key, str) else len(key[1]) + 2 * REACH
+    return 1 if isinstance(key, str) else len(key[1]) + REACH
 
 
 def _together(places: list[int], keys: list[Key]) -> list[list[int]]:
