@@ -6,7 +6,7 @@ neighbours.  Then the points beside extraordinary vertices are made over: round 
 one valence by one product.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TypeAlias
@@ -84,29 +84,26 @@ class ButterflyStep:
 
     def assembled(self) -> Rows:
         """The same as one sparse matrix."""
-        t, origin, edge, beyond = self.coarse, self._origin, self._edge, self._beyond
-        regular = np.ones(t.n_edges, dtype=bool)
-        rows, columns, weights = [], [], []
-        for h, _ in self._made_over:
-            regular[h] = False
-        some = regular[edge]
-        for weight, column in ((1 / 2, origin), (1 / 8, turned(origin, -1)),
-                               (-1 / 16, turned(beyond, 1)), (-1 / 16, turned(beyond, -1))):  # fmt: skip
-            rows.append(edge[some])
-            columns.append(column[some])
-            weights.append(np.full(len(rows[-1]), weight))
-        for spokes, (at, share) in zip(self.spokes, self._made_over, strict=True):
-            n, ends = len(spokes), taken(t.origin, _after(spokes))
-            for row, column in zip(_round(self.beside, n).T, ends, strict=True):
-                rows.append(at.ravel())
-                columns.append(np.broadcast_to(column, at.shape).ravel())
-                weights.append((share * row[:, None]).ravel())
-            rows.append(at.ravel())
-            columns.append(np.broadcast_to(taken(t.origin, spokes[0]), at.shape).ravel())
-            weights.append(CENTRE * share.ravel())
-        places = np.concatenate(rows), np.concatenate(columns)
-        edges = csr_array((np.concatenate(weights), places), shape=(t.n_edges, t.n_vertices))
-        return Rows(csr_array(vstack([eye_array(t.n_vertices), edges], format="csr")))
+        V, E = self.coarse.n_vertices, self.coarse.n_edges
+        at, of, weights = (np.concatenate(parts) for parts in zip(*self._entries(), strict=True))
+        edges = csr_array((weights, (at, of)), shape=(E, V))
+        return Rows(csr_array(vstack([eye_array(V), edges], format="csr")))
+
+    def _entries(self) -> Iterator[tuple[Indices, Indices, Floats]]:
+        """What the points of edges hold: edges, vertices, and how much of them, some of it in parts."""
+        origin, beyond = self._origin, self._beyond
+        regular = np.ones(self.coarse.n_edges, dtype=bool)
+        for edge, _ in self._made_over:
+            regular[edge] = False
+        some = regular[self._edge]
+        wing, ahead, behind = turned(origin, -1), turned(beyond, 1), turned(beyond, -1)
+        for vertex, weight in ((origin, 1 / 2), (wing, 1 / 8), (ahead, -1 / 16), (behind, -1 / 16)):
+            yield self._edge[some], vertex[some], np.full(np.count_nonzero(some), weight)
+        for spokes, (edge, share) in zip(self.spokes, self._made_over, strict=True):
+            around = _round(self.beside, len(spokes))
+            read = [*taken(origin.ravel(), _after(spokes)), taken(origin.ravel(), spokes[0])]
+            for vertex, weights in zip(read, [*around.T, np.full(len(spokes), CENTRE)], strict=True):
+                yield edge.ravel(), np.tile(vertex, len(spokes)), (weights[:, None] * share).ravel()
 
     @cached_property
     def topology(self) -> Topology:

@@ -10,7 +10,7 @@ import numpy as np
 
 from subdivision.arrays import Indices, taken
 from subdivision.butterfly_steps import Beside, butterfly_step
-from subdivision.poles import Table, by_valence, poles, rows, shown
+from subdivision.poles import VALENCES, Table, by_valence, poles, rows, shown
 from subdivision.tables import Tables, laid_out
 from subdivision.templates import descendants, template
 from subdivision.topology import Topology
@@ -18,25 +18,22 @@ from subdivision.topology import Topology
 DEPTHS = range(3, 5)
 """Of fewer levels a table is not worth it; of more, larger ones would not be faster."""
 
-LARGEST_FAN = 32
-"""Vertices of more faces are too rare, and their rings too large, for a table of their own."""
-
 
 def butterfly_tables(t: Topology, depth: int, beside: Beside, at_most: int) -> Tables | None:
     """Tables for ``depth`` levels from ``t``, closed and made by a step, that read the points one step on.
 
-    None where vertices have more than ``LARGEST_FAN`` triangles, or more than ``at_most`` different numbers of them.
+    None where a valence is not among ``VALENCES``, or where there are more than ``at_most`` kinds of triangles.
     """
     counts = np.bincount(t.origin, minlength=t.n_vertices)
     first = counts[t.origin[::3]]
     first[3 * t.n_faces // 4 :] = 0  # in the middle of a triangle before all corners are regular
     faces = np.argsort(first.astype(np.uint16), kind="stable")
     present = np.bincount(first)
-    valences = np.flatnonzero(present).tolist()
-    if valences[-1] > LARGEST_FAN or len(valences) > at_most:
+    found = np.flatnonzero(present).tolist()
+    kinds = [n or 6 for n in found]
+    if len(kinds) > at_most or not set(kinds) <= set(VALENCES):
         return None
-    ends = np.cumsum(present[valences])
-    kinds = [n or 6 for n in valences]
+    ends = np.cumsum(present[found])
     tables = by_valence(_computed, kinds, depth, beside)
     alike = zip(kinds, np.split(faces, ends[:-1]), tables, strict=True)
     rings = [_ring(t, some, n)[walks] for n, some, (walks, _) in alike]

@@ -45,11 +45,7 @@ class Rule:
 
     def corners(self, counts: Indices) -> Floats:
         """``each`` for many numbers of corners; 0 for none."""
-        table = np.zeros(int(counts.max(initial=0)) + 1)
-        present = np.flatnonzero(np.bincount(counts))
-        for n in present[present > 0]:
-            table[n] = self.each(int(n))
-        return table[counts]
+        return by_count(self.each, counts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,6 +144,15 @@ def kernel(t: Topology, rule: Rule) -> Kernel:
         corner=corner / part,
         sharp=sharp_rows(t),
     )
+
+
+def by_count(number: Callable[[int], float], counts: Indices) -> Floats:
+    """``number`` of each of the ``counts``; 0 for none."""
+    table = np.zeros(int(counts.max(initial=0)) + 1)
+    present = np.flatnonzero(np.bincount(counts))
+    for n in present[present > 0]:
+        table[n] = number(int(n))
+    return table[counts]
 
 
 @lru_cache(maxsize=1024)

@@ -14,7 +14,7 @@ from scipy.sparse import _sparsetools, csr_array, diags_array, vstack
 from subdivision import refine_sqrt3
 from subdivision.arrays import Floats, Small
 from subdivision.exact import Exact
-from subdivision.kernels import Rows
+from subdivision.kernels import Rows, by_count
 from subdivision.topology import Topology
 
 Reach = Callable[[int], Exact | int]
@@ -82,11 +82,3 @@ class MiddleStep:
     @cached_property
     def _start(self) -> Small:
         return np.arange(0, 3 * self.coarse.n_faces + 1, 3, dtype=np.int32)
-
-
-def by_count(number: Callable[[int], float], counts: Small) -> Floats:
-    """``number`` of each of the ``counts``; 0 for none."""
-    table = np.zeros(int(counts.max(initial=0)) + 1)
-    for n in np.flatnonzero(np.bincount(counts)).tolist():
-        table[n] = number(n) if n else 0
-    return table[counts]

@@ -18,8 +18,9 @@ import numpy as np
 
 from subdivision import refine_sqrt3
 from subdivision.arrays import Floats, Indices, taken
-from subdivision.middle_steps import MiddleStep, Reach, by_count
-from subdivision.poles import Table, by_valence, poles, rows, shown
+from subdivision.kernels import by_count
+from subdivision.middle_steps import MiddleStep, Reach
+from subdivision.poles import VALENCES, Table, by_valence, poles, rows, shown
 from subdivision.topology import Topology
 
 AT_ONCE = 512
@@ -27,9 +28,6 @@ AT_ONCE = 512
 
 DEPTHS = range(3, 5)
 """Of fewer levels a table is not worth it; of more, propellers would reach farther than what is read."""
-
-VALENCES = range(3, 33)
-"""Of the first corner; others are too rare, or fold the fan on itself."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +92,7 @@ def middle_tables(step: MiddleStep, depth: int, at_most: int) -> MiddleTables | 
     t = step.coarse
     counts = step.counts[t.origin[::3]]
     present = np.flatnonzero(np.bincount(counts)).tolist()
-    if len(present) > at_most or not all(n in VALENCES for n in present):
+    if len(present) > at_most or not set(present) <= set(VALENCES):
         return None
     blocks = []
     for n, (walks, table) in zip(present, by_valence(_computed, present, depth, step.reach), strict=True):

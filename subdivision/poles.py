@@ -20,6 +20,9 @@ Table: TypeAlias = tuple[Indices, Floats]
 
 Rule = TypeVar("Rule", bound=Hashable)
 
+VALENCES = range(3, 33)
+"""Of poles; others are too rare, or fold the triangles round them on each other."""
+
 _remembered: dict[Hashable, Table] = {}
 REMEMBERED_AT_MOST = 256
 

@@ -7,8 +7,9 @@ import pytest
 
 from subdivision import Mesh, plan, shapes, subdivide
 from subdivision.butterfly_steps import ButterflyLater, ButterflyStep
-from subdivision.butterfly_tables import DEPTHS, LARGEST_FAN
+from subdivision.butterfly_tables import DEPTHS
 from subdivision.kernels import Rows
+from subdivision.poles import VALENCES
 from subdivision.schemes import MODIFIED_BUTTERFLY
 from subdivision.stage import Step
 from subdivision.tables import Tables
@@ -79,7 +80,7 @@ def test_large_meshes_have_tables_without_being_asked() -> None:
 
 @pytest.mark.usefixtures("eager")
 def test_a_pole_of_too_many_triangles_is_made_step_by_step() -> None:
-    mesh = shapes.bipyramid(LARGEST_FAN + 1)
+    mesh = shapes.bipyramid(VALENCES.stop)
     made = plan(mesh.topology, MODIFIED_BUTTERFLY, 4)
     assert all(isinstance(step, Rows) for step in made.steps)
     assert_same(made, made.apply(mesh.points), staged(mesh, MODIFIED_BUTTERFLY, 4), "pole")

@@ -4,11 +4,14 @@ import sys
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 
 from subdivision import Mesh, Topology, plan, shapes, subdivide
+from subdivision.arrays import Floats
 from subdivision.kernels import Rows
 from subdivision.middle_steps import MiddleStep
-from subdivision.middle_tables import DEPTHS, VALENCES, MiddleTables
+from subdivision.middle_tables import DEPTHS, MiddleTables
+from subdivision.poles import VALENCES
 from subdivision.schemes import SQRT3
 from tests.test_tables import TRIANGLES, assert_same, staged
 
@@ -23,11 +26,13 @@ def eager(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def closed() -> dict[str, Mesh]:
-    """Valence 3 to 9 beside each other and apart, wrapped round a torus, in any order, and a vertex of no face."""
+    """All valences beside each other and apart, wrapped round a torus, in any order, and a vertex of no face."""
     found = {name: shapes.SHAPES[name]() for name in [*TRIANGLES, "icosahedron"]}
     found = {name: mesh for name, mesh in found.items() if SQRT3.accepts(mesh.topology)}
     found |= {f"bipyramid {n}": shapes.bipyramid(n) for n in (3, 9)}
     draw = np.random.default_rng(1)
+    chance = draw.normal(size=(30, 3))
+    found["ball"] = Mesh(Topology.from_faces(_outside(chance / np.linalg.norm(chance, axis=1)[:, None])), chance)
     for name in ("bipyramid 9", "triangle-torus"):
         t, n = found[name].surface, found[name].surface.n_vertices
         number = draw.permutation(n + 1)
@@ -35,6 +40,12 @@ def closed() -> dict[str, Mesh]:
         mixed = Topology.from_faces([faces[f] for f in draw.permutation(len(faces))], n + 1)
         found[f"{name}, numbered by chance"] = Mesh(mixed, draw.normal(size=(n + 1, 3)))
     return found
+
+
+def _outside(points: Floats) -> list[list[int]]:
+    """The triangles of the hull of points round the origin, seen from outside."""
+    faces = ConvexHull(points).simplices
+    return [list(face) if np.linalg.det(points[face]) > 0 else list(face[::-1]) for face in faces]
 
 
 @pytest.mark.usefixtures("eager")
