@@ -10,10 +10,6 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from app.words import LANGUAGES, SYSTEM, speak, system_language
-
-os.environ["QT_API"] = "pyside6"  # before pyvistaqt asks
-
 from PySide6.QtCore import (
     QMessageLogContext,
     QSettings,
@@ -38,6 +34,7 @@ from app.gui.session import Session
 from app.gui.window import NAME, Window
 from app.log import LOG, keep_log
 from app.state import Options, State, choose, open_lesson, start
+from app.words import LANGUAGES, SYSTEM, speak, system_language
 from lessons import all_lessons
 from lessons.script import Lesson
 
@@ -84,12 +81,12 @@ def run(
     faults = catch_everything(window, log)
     autosave = Autosave(window.session, folder())
     autosave.failed.connect(window.say)
+    window.viewport.start()
     window.show()
     if path is not None:
         window.opened(path)
     window.offer_to_restore(autosave)
     QTimer.singleShot(0, lambda: window.authoring.begin(shelf.usual_place(), own, is_trusted))
-    QTimer.singleShot(0, window.viewport.start)
     ahead = Ahead(window.session, window.viewport)
     QTimer.singleShot(0, ahead.begin)
     signal.signal(signal.SIGINT, lambda *_: window.close())
@@ -188,9 +185,10 @@ def _has_x11() -> bool:
         return True
     xcb.xcb_connect.restype = ctypes.c_void_p
     connection = ctypes.c_void_p(xcb.xcb_connect(None, None))
-    failed = bool(xcb.xcb_connection_has_error(connection))
-    xcb.xcb_disconnect(connection)
-    return not failed
+    is_there = not xcb.xcb_connection_has_error(connection)
+    if not is_there:
+        xcb.xcb_disconnect(connection)
+    return is_there  # and stays connected: a screen that all have left may begin anew, and refuse who comes meanwhile
 
 
 def _refuse(sentence: str) -> int:
