@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QPushButton, QSi
 
 from app.gui.banner import Banner
 from app.gui.look import GRID, px, sized, type_face
-from app.gui.parts import Section
+from app.gui.parts import Late, Section, column
 from app.gui.session import Session
 from app.gui.shown import Switch
 from app.gui.stepper import Stepper
@@ -51,13 +51,19 @@ HINTS: tuple[tuple[type, str], ...] = (
 HIDDEN = "Go to the first stage, or show the control points, to pick a part."
 
 
-class Editing(QWidget):
+class Editing(Late):
     """Buttons, the sharpness of what is picked, and the numbers of nets and fans."""
 
     def __init__(self, session: Session, banner: Banner) -> None:
         super().__init__()
         self._session, self._banner = session, banner
         self._about: tuple[object, ...] = ()
+        self._section = Section("Edit")
+        outside = QVBoxLayout(self)
+        outside.setContentsMargins(0, 0, 0, 0)
+        outside.addWidget(self._section)
+
+    def make(self) -> None:
         self.hint = QLabel(wordWrap=True)
         self.hint.setFont(type_face(12))
         self.sharpness = Sharpness(lambda value: self.wish(editing.sharpen, value))
@@ -75,10 +81,8 @@ class Editing(QWidget):
         self._cells.setSpacing(px(GRID / 2))
         for button in self.buttons.values():
             button.setParent(grid)  # those that are not offered are in no cell
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
         numbers = (self.n_s, self.n_t, self.wrap_s, self.wrap_t, self.closed, self.valence, self.rings)
-        column.addWidget(Section("Edit", self.hint, self.sharpness, grid, *numbers))
+        self._section.fill(column(self.hint, self.sharpness, grid, *numbers))
 
     def wish(self, transition: Callable[..., State], *args: Any) -> None:
         """Do it, or say why not; say so too if it needs another scheme."""
@@ -102,6 +106,7 @@ class Editing(QWidget):
         if not is_open or state.lab is None or about == self._about:
             return
         self._about = about
+        self.need()
         t = state.lab.control.topology
         self.hint.setText(tr(hint(state)))
         self._show_buttons(state, t)
@@ -181,11 +186,11 @@ class Sharpness(QWidget):
         row = QHBoxLayout()
         row.addWidget(QLabel(tr("Sharpness")), 1)
         row.addWidget(self._value)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, px(GRID / 2), 0, 0)
-        column.setSpacing(0)
-        column.addLayout(row)
-        column.addWidget(self.slider)
+        rows = QVBoxLayout(self)
+        rows.setContentsMargins(0, px(GRID / 2), 0, 0)
+        rows.setSpacing(0)
+        rows.addLayout(row)
+        rows.addWidget(self.slider)
 
     def show_value(self, value: float | None) -> None:
         """That of what is picked; None: nothing that can be sharp is."""

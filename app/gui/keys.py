@@ -1,6 +1,7 @@
 """Every command of the window: one table for the menus, the keys and the sheet that lists the keys."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -252,6 +253,24 @@ class KeyGuard(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._ours = {QKeySequence(key).toString() for c in COMMANDS for key in c.keys}
+        self._is_watching = False
+
+    def watch(self, is_watching: bool) -> bool:
+        """Look at what happens from now on, or not; whether it was so before."""
+        was, self._is_watching = self._is_watching, is_watching
+        app = QApplication.instance()
+        if app is not None and was != is_watching:
+            (app.installEventFilter if is_watching else app.removeEventFilter)(self)
+        return was
+
+    @contextmanager
+    def away(self) -> Iterator[None]:
+        """Look at nothing meanwhile: when all widgets change, thousands of events go round, and no key among them."""
+        was = self.watch(False)
+        try:
+            yield
+        finally:
+            self.watch(was)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() != QEvent.Type.ShortcutOverride or not isinstance(event, QKeyEvent):

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVB
 from app.gui.banner import Banner
 from app.gui.choice import Choice
 from app.gui.look import GRID, px
-from app.gui.parts import Section, emptied
+from app.gui.parts import Late, Section, column, emptied
 from app.gui.session import Session
 from app.gui.stepper import Stepper
 from app.gui.vectors import Vectors
@@ -29,7 +29,7 @@ LIGHT = 6_000
 BOUNDARIES = tuple((b.value.replace("-", " "), b) for b in Boundary)
 
 
-class Laboratory(QWidget):
+class Laboratory(Late):
     """Shown while the laboratory is open; a wish that a scheme refuses is answered with its sentence."""
 
     def __init__(self, session: Session, banner: Banner, worker: Worker) -> None:
@@ -37,6 +37,13 @@ class Laboratory(QWidget):
         self._session, self._banner, self.worker = session, banner, worker
         self._about: tuple[object, ...] = ()
         self.panes: list[Pane] = []
+        self._section, self.vectors = Section("Laboratory"), Vectors(session, self.wish)
+        outside = QVBoxLayout(self)
+        outside.setContentsMargins(0, 0, 0, 0)
+        outside.addWidget(self._section)
+        outside.addWidget(self.vectors)
+
+    def make(self) -> None:
         self.shape = Choice("Object", self._take)
         self.levels = Stepper("levels", self._turn_levels)
         self.more = QPushButton(tr("Compare with …"))
@@ -46,11 +53,7 @@ class Laboratory(QWidget):
         self._column = QVBoxLayout(rules)
         self._column.setContentsMargins(0, px(GRID / 2), 0, px(GRID))
         self._column.setSpacing(px(GRID / 2))
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(Section("Laboratory", self.shape, self.levels, rules, self.more))
-        self.vectors = Vectors(session, self.wish)
-        column.addWidget(self.vectors)
+        self._section.fill(column(self.shape, self.levels, rules, self.more))
 
     def wish(self, transition: Callable[..., State], *args: Any) -> None:
         """Do it, or say why not; with a large object, where nobody waits for a picture."""
@@ -81,15 +84,18 @@ class Laboratory(QWidget):
         self._about = ()
         self._session.changed.emit(self._session.state)  # not to this panel: another may be in its place by now
 
-    def inherit(self, before: "Laboratory") -> None:
+    def inherit(self, before: Late) -> None:
         """Take over what the panel before had chosen."""
-        self.vectors.inherit(before.vectors)
+        super().inherit(before)
+        if isinstance(before, Laboratory):
+            self.vectors.inherit(before.vectors)
 
     def show_state(self, state: State) -> None:
         is_open = bench.is_open(state) and state.lab is not None
         self.setVisible(is_open)
         if not is_open or state.lab is None:
             return
+        self.need()
         lab = state.lab
         about = (lab.control, tuple(rule.family for rule in lab.rules))
         if about != self._about:
@@ -153,11 +159,11 @@ class Pane(QWidget):
         self.boundary.setVisible(is_open)
         self.until = Stepper("to level", partial(wish, bench.turn_until, number))
         self.until.setVisible(number > 0)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(px(GRID / 2))
+        rows = QVBoxLayout(self)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.setSpacing(px(GRID / 2))
         if is_one_of_many:
-            column.addWidget(_numbered(number, partial(wish, bench.drop, number)))
+            rows.addWidget(_numbered(number, partial(wish, bench.drop, number)))
         for part in (
             self.family,
             *(stepper for _, stepper in self.parameters),
@@ -165,7 +171,7 @@ class Pane(QWidget):
             self.boundary,
             self.until,
         ):
-            column.addWidget(part)
+            rows.addWidget(part)
 
     def show_rule(self, rule: Rule, levels: int) -> None:
         until = min(rule.until or levels, levels)

@@ -36,6 +36,29 @@ def heading(text: str) -> QLabel:
     return label
 
 
+class Late(QWidget):
+    """A panel that makes its parts when they are needed first: what is never looked at costs nothing."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._is_made = False
+
+    def make(self) -> None:
+        """Make the parts."""
+        raise NotImplementedError
+
+    def need(self) -> None:
+        """The parts are needed from now on."""
+        if not self._is_made:
+            self._is_made = True
+            self.make()
+
+    def inherit(self, before: "Late") -> None:
+        """Have parts if the panel before had."""
+        if before._is_made:
+            self.need()
+
+
 class Section(QWidget):
     """A part of a panel under its name; a click on the name folds it away."""
 
@@ -49,6 +72,11 @@ class Section(QWidget):
         layout.setSpacing(0)
         layout.addWidget(self.head)
         layout.addWidget(self.inside, 1)
+
+    def fill(self, part: QWidget) -> None:
+        """Put a part in the place of nothing."""
+        self.inside.layout().insertWidget(0, part)  # type: ignore[union-attr]
+        part.show()
 
 
 class Head(QAbstractButton):

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWi
 
 from app.draw.theme import THEMES, Theme
 from app.gui.look import GRID, colour, px, sized, type_face
-from app.gui.parts import Section
+from app.gui.parts import Late, Section
 from app.gui.pull import PullSlider, Track
 from app.gui.session import Session
 from app.gui.stepper import Stepper
@@ -23,13 +23,20 @@ from subdivision.extraordinary import EQUAL, PULL_RULES, Analysis, Condition, an
 from subdivision.words import phrase
 
 
-class Spectrum(QWidget):
+class Spectrum(Late):
     """Shown in the laboratory; ``wish`` does what is wished, or says why not."""
 
     def __init__(self, session: Session, wish: Callable[..., None]) -> None:
         super().__init__()
         self._session, self._wish = session, wish
         self._asked: tuple[Rule, int, Theme] | None = None
+        self._section = Section("Extraordinary points")
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self._section)
+
+    def make(self) -> None:
+        session = self._session
         self.valence = Stepper("valence", lambda by: session.do(turn_valence, by))
         self.words, self.way = _label(), _label()
         self.slider = PullSlider(lambda: session.state.options.theme, self._pull, session.let_go)
@@ -40,22 +47,21 @@ class Spectrum(QWidget):
         self.vary.setAccessibleName(self.vary.text())
         self.vary.setToolTip(tr("The same rule at this valence, with a slider for how far a vertex is pulled"))
         self.vary.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.vary.clicked.connect(lambda: wish(bench.vary_vertex_rule))
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
+        self.vary.clicked.connect(lambda: self._wish(bench.vary_vertex_rule))
         inside = QWidget()
         rows = QVBoxLayout(inside)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.setSpacing(px(GRID / 2))
         for part in (self.valence, self.way, self.slider, self.vary, self.words):
             rows.addWidget(part)
-        column.addWidget(Section("Extraordinary points", inside))
+        self._section.fill(inside)
 
     def show_state(self, state: State) -> None:
         is_open = bench.is_open(state) and state.lab is not None and bool(state.now.lead.trace.control.topology.n_faces)
         self.setVisible(is_open)
         if not is_open or state.lab is None:
             return
+        self.need()
         n, rule, theme = valence_of(state), state.lab.rules[0], THEMES[state.options.theme]
         self.valence.show_value(str(n), is_least=n == VALENCES.start, is_most=n == VALENCES.stop - 1)
         if (asked := (rule, n, theme)) != self._asked:

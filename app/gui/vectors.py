@@ -12,7 +12,7 @@ from app.gui.choice import Choice
 from app.gui.lattice import Lattice
 from app.gui.look import GRID, px, sized, type_face
 from app.gui.mask import MaskTable
-from app.gui.parts import Section
+from app.gui.parts import Late, Section
 from app.gui.passes import Passes
 from app.gui.session import Session
 from app.gui.shown import Switch
@@ -28,13 +28,20 @@ RICH = Qt.TextFormat.RichText
 OWN = "Own vectors"
 
 
-class Vectors(QWidget):
+class Vectors(Late):
     """Shown while a box spline leads; a wish that is refused is answered with its sentence."""
 
     def __init__(self, session: Session, wish: Callable[..., None]) -> None:
         super().__init__()
         self._session, self._wish = session, wish
         self._about: VectorSet = ()
+        self._section = Section("Box spline")
+        outside = QVBoxLayout(self)
+        outside.setContentsMargins(0, 0, 0, 0)
+        outside.addWidget(self._section)
+
+    def make(self) -> None:
+        session = self._session
         self.preset = Choice("Vector set", self._choose)
         self.lattice = Lattice(session, self.do, self.can)
         self.repeat = _button("Repeat", "The vector in the ring once more (Enter)")
@@ -68,9 +75,7 @@ class Vectors(QWidget):
             self.table, self.basis, self.overlay, self.next, self.picture,
         ):  # fmt: skip
             column.addWidget(part)
-        outside = QVBoxLayout(self)
-        outside.setContentsMargins(0, 0, 0, 0)
-        outside.addWidget(Section("Box spline", inside))
+        self._section.fill(inside)
 
     def do(self, transition: Callable[..., State], *args: Any) -> None:
         """At once where that is quick; else, and where it is refused, as the laboratory does it, which says why."""
@@ -92,6 +97,7 @@ class Vectors(QWidget):
         self.setVisible(bool(vectors))
         if not vectors or state.lab is None:
             return
+        self.need()
         self.lattice.show_state(state)
         self.passes.show_state(state)
         name = boxlab.preset_of(vectors)
@@ -104,8 +110,11 @@ class Vectors(QWidget):
             self._about = vectors
             self._tell(vectors)
 
-    def inherit(self, before: "Vectors") -> None:
+    def inherit(self, before: Late) -> None:
         """Take over which point is ringed and which pass is chosen."""
+        super().inherit(before)
+        if not isinstance(before, Vectors) or not before._is_made:
+            return
         self.lattice.ring = before.lattice.ring
         self.passes.setCurrentRow(before.passes.currentRow())
 

@@ -121,7 +121,7 @@ class Window(QMainWindow):
         self.recorder = Recorder(self)
         self.sheets = (Keys(session, self), About(session, self))
         self._guard = KeyGuard(self)
-        QApplication.instance().installEventFilter(self._guard)  # type: ignore[union-attr]
+        self._guard.watch(True)
         self._restore()
         session.changed.connect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._follow_system)
@@ -136,7 +136,6 @@ class Window(QMainWindow):
             self.furnish()
             return
         if state.options.scale != self._scale:
-            self._theme = ""
             self.furnish()
             return
         if state.options.theme != self._theme:
@@ -160,7 +159,8 @@ class Window(QMainWindow):
 
     def _dress(self, theme: str) -> None:
         self._theme = theme
-        dress(QApplication.instance(), THEMES[theme])  # type: ignore[arg-type]
+        with self._guard.away():
+            dress(QApplication.instance(), THEMES[theme])  # type: ignore[arg-type]
         for id_, action in self.actions_by_id.items():
             if name := BY_ID[id_].icon:
                 action.setIcon(icon(name, theme))
@@ -478,14 +478,21 @@ class Window(QMainWindow):
 
     def furnish(self) -> None:
         """Change the furniture for new, for other words or another size; everything else is as it was."""
-        self._scale = self.session.state.options.scale
-        rescale(self._scale)
+        with self._guard.away():
+            self._furnish()
+
+    def _furnish(self) -> None:
+        options = self.session.state.options
+        if options.scale != self._scale:
+            self._scale = options.scale
+            rescale(self._scale)
+            self._dress(options.theme)  # what is made after it is dressed once
         places = self._places()
         self._middle.setEnabled(False)  # the picture changes its size once, at the end
         seat = seat_of(places, QApplication.focusWidget())
         if seat is not None:
             enter_what_is_typed()
-        before = self.contents, self.details, self.laboratory
+        before = self.contents, self.details, self.laboratory, self.editing, self.spectrum
         is_bare = self.timeline.isHidden(), self.menuBar().isHidden()
         throw_away(self._put_up())
         for lasting in (self.banner, self.presenter, self.viewport.narration):
@@ -493,7 +500,8 @@ class Window(QMainWindow):
         for part, is_hidden in zip((self.timeline, self.menuBar()), is_bare, strict=True):
             part.setHidden(is_hidden)
         self.show_state(self.session.state)
-        for part, old in zip((self.contents, self.details, self.laboratory), before, strict=True):
+        after = self.contents, self.details, self.laboratory, self.editing, self.spectrum
+        for part, old in zip(after, before, strict=True):
             part.inherit(old)  # type: ignore[attr-defined]
         for sheet in self.sheets:
             sheet.update()
@@ -686,7 +694,7 @@ class Window(QMainWindow):
         self.authoring.stop()
         self.session.changed.disconnect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.disconnect(self._follow_system)
-        QApplication.instance().removeEventFilter(self._guard)  # type: ignore[union-attr]
+        self._guard.watch(False)
         self._keep()
         self.presenter.close()
         self.manual.close()
