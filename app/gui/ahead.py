@@ -4,6 +4,7 @@ Telling a lesson and setting a formula for the first time take up to half a seco
 Pieces are small and one at a time, in another thread; after any change there is a pause.
 """
 
+import gc
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -49,6 +50,7 @@ class Ahead(QObject):
     def begin(self) -> None:
         """Get ready what comes next from now on, whenever nothing has changed for a while."""
         sys.setswitchinterval(SWITCH)
+        gc.freeze()  # what there is now stays: looking for garbage in it takes longer than a picture
         self._session.changed.connect(self._wait)
         self._wait()
 
@@ -57,6 +59,7 @@ class Ahead(QObject):
         self._session.changed.disconnect(self._wait)
         self._quiet.stop()
         QThreadPool.globalInstance().waitForDone()
+        gc.unfreeze()
 
     def _wait(self) -> None:
         self._quiet.start(QUIET)
@@ -68,6 +71,8 @@ class Ahead(QObject):
             self._job = _Job(piece)
             self._job.told.over.connect(self._is_over)
             QThreadPool.globalInstance().start(self._job)
+        else:
+            gc.freeze()  # lessons stay told
 
     def _is_over(self) -> None:
         self._job = None
