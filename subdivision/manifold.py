@@ -40,7 +40,7 @@ def require_faces(sizes: Indices, origin: Indices, face: Indices, n_vertices: in
             faces=[f],
         )
     visits = np.sort(face * n_vertices + origin)
-    if (twice := np.flatnonzero(np.diff(visits) == 0)).size:
+    if (twice := np.flatnonzero(visits[1:] == visits[:-1])).size:
         f, v = divmod(int(visits[twice[0]]), n_vertices)
         raise TopologyError(phrase("face {f} visits vertex {v} twice; remove the repeated corner", f=f, v=v), faces=[f])
 
@@ -49,14 +49,16 @@ def paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Indi
     """Twin and edge of the half-edges from ``a`` to ``b``, and the ends of the edges: the only search there is."""
     key = np.minimum(a, b) * n + np.maximum(a, b)
     order = stable_order(key, n * n)
-    first = np.r_[True, np.diff(key[order]) != 0]
+    ordered, first = key[order], np.ones(len(key), dtype=bool)
+    np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
     start = np.flatnonzero(first)
-    count = np.diff(np.r_[start, len(key)])
+    count = np.diff(start, append=len(key))
     _require_two_faces_an_edge(a, b, face, order, start, count)
     edge = np.empty(len(key), dtype=np.intp)
     edge[order] = np.cumsum(first) - 1
     twin = np.full(len(key), -1, dtype=np.intp)
-    one, other = order[start[count == 2]], order[start[count == 2] + 1]
+    pair = start[count == 2]
+    one, other = order[pair], order[pair + 1]
     if (same := np.flatnonzero(a[one] == a[other])).size:
         g, h = int(one[same[0]]), int(other[same[0]])
         raise TopologyError(

@@ -9,7 +9,7 @@ Sharpness belongs to the topology because weights depend on it as they do on val
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
@@ -66,9 +66,8 @@ class Topology:
     hidden: Mask
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            if field.name != "n_vertices":
-                object.__setattr__(self, field.name, frozen(getattr(self, field.name)))
+        known = self.__dict__
+        known.update({name: frozen(known[name]) for name in known if name != "n_vertices"})
 
     @classmethod
     def deferred(cls, make: Mapping[str, Callable[[], Any]], **known: Any) -> Self:
