@@ -13,127 +13,16 @@ half-edges keep the numbers the stages give them.  After one step so do the poin
 Not for meshes that end, nor for faces other than quads: these are told in stages.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any
 
 import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, constant, short, taken, turned
+from subdivision.grid_steps import First, Later
 from subdivision.topology import Topology
-
-AT_ONCE = 12_000
-"""How many points are gathered at a time: they then stay in the cache."""
-
-
-@lru_cache(maxsize=16)
-def curve(n: int, tension: Fraction) -> Floats:
-    """(2 n - 1, n + 3) float: what lies between the ends of ``n`` edges in a row, from them and one point beyond."""
-    w, made = float(tension), np.zeros((2 * n - 1, n + 3))
-    for i in range(n):
-        made[2 * i, i : i + 4] = -w, 1 / 2 + w, 1 / 2 + w, -w
-    for i in range(1, n):
-        made[2 * i - 1, i + 1] = 1
-    return made
-
-
-@lru_cache(maxsize=128)
-def beyond(n: int, tension: Fraction) -> Floats:
-    """(4 n, 2 n) float: what lies beyond a vertex of ``n`` quads, from its neighbours and their opposite corners.
-
-    First the virtual points of its edges, by the rule of the scheme; then what each quad sees beyond the edge that
-    follows its corner, beyond the edge before, and across.
-    """
-    neighbour, opposite = np.split(np.eye(2 * n), 2)
-    lean = float(2 * tension / (1 + 2 * tension))
-    back_two, back, here, on, on_two = (np.roll(np.arange(n), -j) for j in range(-2, 3))
-    three = neighbour[back] + neighbour[here] + neighbour[on]
-    four = opposite[back_two] + opposite[back] + opposite[here] + opposite[on]
-    virtual = 4 * neighbour.mean(axis=0) - three + lean * (four - 4 * opposite.mean(axis=0))
-    follows = 1 / 2 * (virtual + neighbour[on_two])
-    precedes = 1 / 2 * (virtual[on] + neighbour[back])
-    return np.concatenate([virtual, follows, precedes, 1 / 2 * (opposite[back_two] + opposite[on_two])])
-
-
-@dataclass(frozen=True, eq=False)
-class Rings:
-    """What is round the vertices of each valence, and what is made of that.
-
-    Attributes
-    ----------
-    around : ((2 valence, count) int, ...)
-        The neighbours of each vertex, then the opposite corners.
-    ideas : int
-        How many of the four things beyond its corners are made: 1 or 4.
-    """
-
-    around: tuple[Indices, ...]
-    ideas: int
-
-    def apply(self, seen: Floats, tension: Fraction, out: Floats) -> None:
-        """Write what lies beyond the corners of all vertices."""
-        end, d = 0, seen.shape[1]
-        for ring in self.around:
-            n, count = len(ring) // 2, ring.shape[1]
-            begin, end = end, end + self.ideas * n * count
-            read = taken(seen, ring).reshape(2 * n, -1)
-            np.matmul(beyond(n, tension)[: self.ideas * n], read, out=out[begin:end].reshape(-1, count * d))
-
-
-@dataclass(frozen=True, eq=False)
-class First:
-    """The first step.
-
-    Attributes
-    ----------
-    rows : (4, n_edges) int
-        The ends of each edge between two virtual points, which follow the vertices.
-    edges : (8, n_faces) int
-        The edges of each face, then those opposite in the faces beside.
-    """
-
-    rings: Rings
-    rows: Indices
-    edges: Indices
-
-    def apply(self, seen: Floats, tension: Fraction, made: Floats) -> None:
-        """Write the points of faces and edges."""
-        F, w = self.edges.shape[1], float(tension)
-        faces, edges = made[:F].reshape(1, -1), made[F:]
-        _product(curve(1, tension), seen, self.rows, edges.reshape(1, -1))
-        _product(np.repeat([[1 / 4 + w / 2, -w / 2]], 4, axis=1), edges, self.edges, faces)
-
-
-@dataclass(frozen=True, eq=False)
-class Later:
-    """A step of grids with ``n`` edges along each side, 2 or more.
-
-    All numbers are those of the points before; what lies beyond corners follows them.
-
-    Attributes
-    ----------
-    rows : (n + 3, n_edges) int
-    grids : ((n + 3) ** 2, n_faces) int
-    """
-
-    n: int
-    rings: Rings
-    rows: Indices
-    grids: Indices
-
-    def apply(self, seen: Floats, tension: Fraction, made: Floats) -> None:
-        """Write the points inside the grids, and along the edges."""
-        rule, inner, d, F = curve(self.n, tension), 2 * self.n - 1, seen.shape[1], self.grids.shape[1]
-        inside, along = np.split(made, [inner * inner * F])
-        out = inside.reshape(inner, inner, F * d)
-        for some in _runs(self.grids):
-            read = taken(seen, self.grids[:, some]).reshape(self.n + 3, -1)
-            half = np.matmul(rule, read).reshape(inner, self.n + 3, -1)
-            np.matmul(rule, half, out=out[:, :, some.start * d : some.stop * d])
-        _product(rule, seen, self.rows, along.reshape(inner, -1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +31,13 @@ class Grids:
 
     control: Topology
     tension: Fraction
-    steps: tuple[First | Later, ...]
+    first: First
+    later: tuple[Later, ...]
+
+    @property
+    def steps(self) -> tuple[First | Later, ...]:
+        """One after the other."""
+        return self.first, *self.later
 
     def n_points(self, level: int) -> int:
         """How many there are after so many steps."""
@@ -152,12 +47,11 @@ class Grids:
     def apply(self, points: Floats, out: Floats | None = None) -> Floats:
         """(n_vertices, d) float -> (n_points, d) float, into ``out`` if there is one."""
         V, d = points.shape
-        n, made = V, self._room(0, d, None)
+        made = self._room(0, d, None)
         made[:V] = points
         for level, step in enumerate(self.steps, 1):
-            seen = made
-            step.rings.apply(seen, self.tension, seen[n:])
-            n, made = self.n_points(level), self._room(level, d, out)
+            seen, n = made, self.n_points(level)
+            made = self._room(level, d, out)
             made[:V] = points
             step.apply(seen, self.tension, made[V:n])
         return made
@@ -166,7 +60,11 @@ class Grids:
         """For the points after so many steps, and for what the next step sees beyond them."""
         if level == len(self.steps):
             return np.empty((self.n_points(level), d)) if out is None else out
-        return np.empty((self.n_points(level) + self.steps[level].rings.ideas * self.control.n_halfedges, d))
+        return np.empty((self.n_points(level) + self.steps[level].more, d))
+
+    def assembled(self) -> "Grids":
+        """The same, slower to make and quicker to apply."""
+        return replace(self, first=self.first.assembled(self.tension, self.control.n_edges, self.control.n_vertices))
 
     def refined(self) -> Topology:
         """What the stages make of ``control``."""
@@ -199,7 +97,7 @@ def grids(t: Topology, tension: Fraction, levels: int) -> Grids | None:
     if not t.is_smooth or not t.is_quadrilateral or (t.twin < 0).any():
         return None
     fans = _fans(t)
-    return Grids(t, tension, (_first(t, fans), *(_later(t, fans, 1 << k) for k in range(1, levels))))
+    return Grids(t, tension, _first(t, fans), tuple(_later(t, fans, 1 << k) for k in range(1, levels)))
 
 
 @lru_cache(maxsize=8)
@@ -245,32 +143,33 @@ def _fans(t: Topology) -> list[Indices]:
     return fans
 
 
-def _places(fans: list[Indices], ideas: int, begin: int, n: int) -> Indices:
-    """(ideas, n_halfedges) int: the numbers, from ``begin``, of what lies beyond each corner."""
-    places = np.empty((ideas, n), dtype=short(begin + ideas * n))
+def _first(t: Topology, fans: list[Indices]) -> First:
+    origin, edge = (x.astype(np.int32, copy=False) for x in (t.origin, t.edge))
+    neighbour = turned(origin.reshape(-1, 4), 1)
+    across = turned(turned(edge.reshape(-1, 4), 1), 1).reshape(-1)
+    rings = _rings(fans, neighbour.reshape(-1), turned(neighbour, 1).reshape(-1))
+    return First(
+        origin, edge, taken(across, t.twin), tuple((r, taken(edge, f)) for r, f in zip(rings, fans, strict=True))
+    )
+
+
+def _rings(fans: list[Indices], neighbour: Indices, opposite: Indices) -> tuple[Indices, ...]:
+    return tuple(np.concatenate([taken(neighbour, fan), taken(opposite, fan)]) for fan in fans)
+
+
+def _beyond_corners(fans: list[Indices], begin: int, n: int) -> Indices:
+    """(4, n_halfedges) int: the numbers, from ``begin``, of what lies beyond each corner."""
+    places = np.empty((4, n), dtype=short(begin + 4 * n))
     for fan in fans:
-        end = begin + ideas * fan.size
-        places[:, fan] = np.arange(begin, end, dtype=places.dtype).reshape(ideas, *fan.shape)
+        end = begin + 4 * fan.size
+        places[:, fan] = np.arange(begin, end, dtype=places.dtype).reshape(4, *fan.shape)
         begin = end
     return places
 
 
-def _rings(fans: list[Indices], neighbour: Indices, opposite: Indices, ideas: int) -> Rings:
-    return Rings(tuple(np.concatenate([taken(neighbour, fan), taken(opposite, fan)]) for fan in fans), ideas)
-
-
-def _first(t: Topology, fans: list[Indices]) -> First:
-    neighbour, edge = (x.reshape(-1, 4) for x in (t.origin, t.edge))
-    neighbour, across = turned(neighbour, 1), turned(turned(edge, 1), 1)
-    rings = _rings(fans, neighbour.reshape(-1), turned(neighbour, 1).reshape(-1), 1)
-    virtual = _places(fans, 1, t.n_vertices, t.n_halfedges)[0]
-    beside = taken(across.reshape(-1), t.twin).reshape(-1, 4)
-    return First(rings, _rows(t, 1, virtual), np.concatenate([edge.T, beside.T]))
-
-
 def _later(t: Topology, fans: list[Indices], n: int) -> Later:
     F, begin = t.n_faces, t.n_vertices + (n - 1) ** 2 * t.n_faces + (n - 1) * t.n_edges
-    numbers, ideas = numbered(t, n), _places(fans, 4, begin, t.n_halfedges)
+    numbers, ideas = numbered(t, n), _beyond_corners(fans, begin, t.n_halfedges)
     seen = np.empty((n + 3, n + 3, F), dtype=ideas.dtype)
     seen[1:-1, 1:-1] = numbers
     beside, neighbour, opposite = (np.empty((*shape, F, 4), dtype=ideas.dtype) for shape in ((n - 1,), (), ()))
@@ -282,7 +181,7 @@ def _later(t: Topology, fans: list[Indices], n: int) -> Later:
         side = np.rot90(seen, -c)
         side[0, 1], side[1, 0], side[0, 0] = (idea[c::4] for idea in ideas[1:])
         side[2:-2, 0] = across[:, c::4]
-    rings = _rings(fans, neighbour.reshape(-1), opposite.reshape(-1), 4)
+    rings = _rings(fans, neighbour.reshape(-1), opposite.reshape(-1))
     return Later(n, rings, _rows(t, n, ideas[0]), seen.reshape(-1, F))
 
 
@@ -297,18 +196,3 @@ def _rows(t: Topology, n: int, virtual: Indices) -> Indices:
     rows[0], rows[-1] = virtual[h], virtual[t.twin[h]]
     rows[2:-2] = np.arange(begin, begin + inner * t.n_edges).reshape(inner, t.n_edges)
     return rows
-
-
-def _product(rule: Floats, points: Floats, rows: Indices, out: Floats) -> None:
-    """``rule`` of the points in each column of ``rows``."""
-    d = points.shape[1]
-    for some in _runs(rows):
-        read = taken(points, rows[:, some]).reshape(len(rows), -1)
-        np.matmul(rule, read, out=out[:, some.start * d : some.stop * d])
-
-
-def _runs(read: np.ndarray[Any, Any]) -> Iterator[slice]:
-    """The columns of what is read, in short runs."""
-    rows, n = read.shape
-    each = max(AT_ONCE // rows, 1)
-    return (slice(begin, min(begin + each, n)) for begin in range(0, n, each))

@@ -4,7 +4,7 @@ The first levels are kernels, one after the other.  Where the rest is deep, a ta
 kind of face makes it at once; a small mesh has one table for everything.  Dual schemes have
 steps of their own, and tables for each kind of corner; so have those that flip edges, and the
 butterfly, for each kind of triangle.  Interpolating quads are grids.  Schemes that have none,
-and interpolating ones of open meshes, are told in stages, which all of this is tested against.
+and quads of open meshes, are told in stages, which all of this is tested against.
 """
 
 from dataclasses import dataclass, replace
@@ -121,7 +121,7 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
         return _dual(t, scheme, scheme.corners, scheme.numbering, levels)
     if isinstance(t, Topology) and scheme.middles:
         return _flipping(t, scheme.middles, levels, scheme.faces_after(t, levels))
-    if isinstance(t, Topology) and scheme.beside and is_swift(t, scheme):
+    if isinstance(t, Topology) and scheme.beside:
         return _butterfly(t, scheme.beside, levels, scheme.faces_after(t, levels))
     if in_grids := _grids(t, scheme, levels):
         return Plan(in_grids.topology, (in_grids,))
@@ -145,7 +145,7 @@ def is_swift(t: Connectivity, scheme: Scheme) -> bool:
     """Whether whole arrays make it, which need little memory beside it."""
     if not isinstance(t, Topology):
         return False
-    return bool(scheme.reach or scheme.middles or (scheme.beside and not t.boundary.any()))
+    return bool(scheme.reach or scheme.middles or scheme.beside)
 
 
 def _kept(step: AnyStep) -> AnyStep:
@@ -154,7 +154,7 @@ def _kept(step: AnyStep) -> AnyStep:
         return assembled(step)
     if isinstance(step, Later) and step.rule.size == 3:
         return assembled(kernel(step.coarse, step.rule))
-    if isinstance(step, CornerStep | MiddleStep | Butterfly):
+    if isinstance(step, CornerStep | Grids | MiddleStep | Butterfly):
         return step.assembled()
     return Rows(step.matrix) if isinstance(step, Step) else step
 
@@ -199,7 +199,7 @@ def _flipping(t: Topology, reach: MiddleReach, levels: int, fine: int) -> Plan:
 
 
 def _butterfly(t: Topology, beside: Beside, levels: int, fine: int) -> Plan:
-    """Closed meshes step by step, then by tables, which begin one step on."""
+    """Step by step, then by tables, which begin one step on; open meshes have none."""
     steps: list[Butterfly] = []
     while len(steps) < levels:
         step, depth = steps[-1].after() if steps else butterfly_step(t, beside), levels - len(steps)
