@@ -1,9 +1,9 @@
-"""One step of the modified butterfly on whole arrays: the vertices stay, and every edge of a closed mesh gets a point.
+"""One step of the modified butterfly on whole arrays: the vertices stay, and every edge gets a point.
 
 Every half-edge adds what it sees on its side to the point of its edge, as if all vertices were
 regular: half of its origin, the wing in its own triangle, and the corners beyond its two
-neighbours.  Then the points beside extraordinary vertices are made over: round all vertices of
-one valence by one product.
+neighbours.  Then few points are made over: those of the outline by their own curve, and those
+beside extraordinary vertices, round all vertices of one valence by one product.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,7 +17,9 @@ from scipy.sparse import _sparsetools, csr_array, eye_array, vstack
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, Small, taken, turned
 from subdivision.exact import Exact
+from subdivision.four_points import rim_points
 from subdivision.kernels import Rows
+from subdivision.operators import Operator
 from subdivision.topology import Topology
 
 Beside = Callable[[int, int], Exact | int]
@@ -32,16 +34,19 @@ AT_ONCE = 2048
 
 @dataclass(frozen=True, eq=False)
 class ButterflyStep:
-    """One step from ``coarse``, closed and all triangles, numbered as the stages do: the vertices, then the edges.
+    """One step from ``coarse``, all triangles, numbered as the stages do: the vertices, then the edges.
 
     Attributes
     ----------
+    rim : (n_rim,) int
+        The half-edges with nothing beyond them.
     spokes : ((n, n_vertices) int, ...)
         The half-edges round the extraordinary vertices, in order, together where there are equally many.
     """
 
     coarse: Topology
     beside: Beside
+    rim: Indices
     spokes: tuple[Indices, ...]
 
     @property
@@ -70,8 +75,13 @@ class ButterflyStep:
         return made
 
     def make_over(self, points: Floats, edges: Floats) -> None:
-        """The points beside extraordinary vertices; the mean of two where both ends are."""
+        """The points of the outline, and those beside extraordinary vertices: the mean of two where both ends are."""
         d = points.shape[1]
+        if len(self.rim):
+            ahead, behind, lean = self._leaning
+            for h in (ahead, behind):
+                _add(self._edge.ravel()[h], taken(points, lean[0]) - taken(points, lean[1]), edges, -1 / 16)
+            edges[self._edge.ravel()[self.rim]] = self._outline.apply(points)
         for h, _ in self._made_over:
             edges[h] = 0
         for spokes, (edge, share) in zip(self.spokes, self._made_over, strict=True):
@@ -93,12 +103,22 @@ class ButterflyStep:
         """What the points of edges hold: edges, vertices, and how much of them, some of it in parts."""
         origin, beyond = self._origin, self._beyond
         regular = np.ones(self.coarse.n_edges, dtype=bool)
-        for edge, _ in self._made_over:
+        rim = taken(self._edge.ravel(), self.rim)
+        for edge in (rim, *(edge for edge, _ in self._made_over)):
             regular[edge] = False
         some = regular[self._edge]
         wing, ahead, behind = turned(origin, -1), turned(beyond, 1), turned(beyond, -1)
         for vertex, weight in ((origin, 1 / 2), (wing, 1 / 8), (ahead, -1 / 16), (behind, -1 / 16)):
             yield self._edge[some], vertex[some], np.full(np.count_nonzero(some), weight)
+        if len(rim):
+            outline = self._outline.assemble().tocoo()
+            yield rim[outline.row], outline.col, outline.data
+            ahead, behind, lean = self._leaning
+            for h in (ahead, behind):
+                edge = taken(self._edge.ravel(), h)
+                some = regular[edge]
+                for vertex, weight in zip(lean, (-1 / 16, 1 / 16), strict=True):
+                    yield edge[some], vertex[some], np.full(np.count_nonzero(some), weight)
         for spokes, (edge, share) in zip(self.spokes, self._made_over, strict=True):
             around = _round(self.beside, len(spokes))
             read = [*taken(origin.ravel(), _after(spokes)), taken(origin.ravel(), spokes[0])]
@@ -111,8 +131,9 @@ class ButterflyStep:
         return refine.triangles(self.coarse)
 
     def after(self) -> "ButterflyLater":
-        """The step after it: half-edge ``3 h`` leaves the vertex that ``h`` left."""
-        step = ButterflyStep(self.topology, self.beside, tuple(3 * some for some in self.spokes))
+        """The step after it: half-edge ``3 h`` leaves the vertex that ``h`` left, along the first half of its edge."""
+        rim = np.concatenate([3 * self.rim, 3 * _after(self.rim) + 2])
+        step = ButterflyStep(self.topology, self.beside, rim, tuple(3 * some for some in self.spokes))
         return ButterflyLater(self.coarse, step)
 
     @cached_property
@@ -127,8 +148,25 @@ class ButterflyStep:
 
     @cached_property
     def _beyond(self) -> Small:
-        """... and the corner of the triangle beyond."""
-        return taken(turned(self._origin, -1).ravel(), self.coarse.twin).reshape(-1, 3)
+        """... and the corner of the triangle beyond; where there is none, its origin, and ``_leaning`` mends that."""
+        beyond = taken(turned(self._origin, -1).ravel(), self.coarse.twin)
+        beyond[self.rim] = self.coarse.origin[self.rim]
+        return beyond.reshape(-1, 3)
+
+    @cached_property
+    def _leaning(self) -> tuple[Indices, Indices, tuple[Indices, Indices]]:
+        """The half-edges after and before each on the rim, and from where to where they lean.
+
+        The parallelogram beyond a half-edge is as far from its origin as its end is from the corner on this side.
+        """
+        ahead = _after(self.rim)
+        behind = _after(ahead)
+        return ahead, behind, (taken(self.coarse.origin, ahead), taken(self.coarse.origin, behind))
+
+    @cached_property
+    def _outline(self) -> Operator:
+        """(n_rim, n_vertices): the points of the rim."""
+        return rim_points(self.coarse, self.rim)
 
     @cached_property
     def _made_over(self) -> list[tuple[Small, Floats]]:
@@ -211,11 +249,14 @@ class ButterflyLater:
         """(n_faces, 3) int each: the vertex at each corner, the point ahead, and those right and left of the corner.
 
         The point ahead is on the edge that leaves the corner; from there the one on the right is the next clockwise
-        round the vertex, and the one on the left the next but one counter-clockwise.
+        round the vertex, and the one on the left the next but one counter-clockwise.  Where there is none it is the
+        origin of the half of the rim there, as ``step`` has it.
         """
         t, V = self.before, self.before.n_vertices
         origin, edge, twin = (x.reshape(-1, 3) for x in (t.origin, V + t.edge, t.twin))
         right, left = (taken(turned(edge, by).ravel(), twin) for by in (1, -1))
+        if len(self.step.rim):
+            right, left = np.where(twin < 0, origin, right), np.where(twin < 0, edge, left)
         return origin, edge, right, turned(left, -1)
 
     @cached_property
@@ -234,7 +275,9 @@ Butterfly: TypeAlias = ButterflyStep | ButterflyLater
 
 def butterfly_step(t: Topology, beside: Beside) -> ButterflyStep:
     """One step on ``t``."""
+    rim = np.flatnonzero(t.twin < 0)
     counts = np.bincount(t.origin, minlength=t.n_vertices)
+    counts[t.origin[rim]] = counts[taken(t.origin, t.next[rim])] = 0  # regular, for all that it matters
     first = np.empty(t.n_vertices, dtype=np.intp)
     first[t.origin] = np.arange(t.n_halfedges)
     groups = []
@@ -244,7 +287,7 @@ def butterfly_step(t: Topology, beside: Beside) -> ButterflyStep:
             while len(spokes) < n:
                 spokes.append(_after(taken(t.twin, spokes[-1])))
             groups.append(np.stack(spokes))
-    return ButterflyStep(t, beside, tuple(groups))
+    return ButterflyStep(t, beside, rim, tuple(groups))
 
 
 def _both(of_halfedges: Floats) -> Floats:

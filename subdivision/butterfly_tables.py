@@ -20,10 +20,12 @@ DEPTHS = range(3, 5)
 
 
 def butterfly_tables(t: Topology, depth: int, beside: Beside, at_most: int) -> Tables | None:
-    """Tables for ``depth`` levels from ``t``, closed and made by a step, that read the points one step on.
+    """Tables for ``depth`` levels from ``t``, made by a step, that read the points one step on.
 
-    None where a valence is not among ``VALENCES``, or where there are more than ``at_most`` kinds of triangles.
+    None where the mesh is open, a valence is not among ``VALENCES``, or there are more than ``at_most`` kinds.
     """
+    if (t.twin < 0).any():
+        return None
     counts = np.bincount(t.origin, minlength=t.n_vertices)
     first = counts[t.origin[::3]]
     first[3 * t.n_faces // 4 :] = 0  # in the middle of a triangle before all corners are regular

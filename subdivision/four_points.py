@@ -37,15 +37,20 @@ def reflected(index: Indices, there: Mask, end: Indices, inner: Indices, n: int)
 
 
 def outline(t: Topology, tension: Fraction = CUBIC) -> Operator:
-    """(n_edges, n_vertices): boundary edges to their points on the outline, a four-point curve; other rows are zero.
+    """(n_edges, n_vertices): boundary edges to their points on the outline; other rows are zero."""
+    rim = np.flatnonzero(t.twin < 0)
+    return Mean(t.edge[rim], np.arange(len(rim)), (t.n_edges, len(rim))) @ rim_points(t, rim, tension)
 
-    The curve ends at sharp vertices, where a phantom point is reflected.
+
+def rim_points(t: Topology, rim: Indices, tension: Fraction = CUBIC) -> Operator:
+    """(n_rim, n_vertices): the ``rim``, all half-edges of the boundary, to its points: a four-point curve.
+
+    It ends at sharp vertices, where a phantom point is reflected.
     """
-    rim, V = np.flatnonzero(t.twin < 0), t.n_vertices
+    V = t.n_vertices
     a, b = t.origin[rim], t.origin[t.next[rim]]
     back, ahead = np.zeros(V, dtype=np.intp), np.zeros(V, dtype=np.intp)
     back[b], ahead[a] = a, b
     goes_on = t.vertex_sharpness == 0
     before, after = reflected(back[a], goes_on[a], a, b, V), reflected(ahead[b], goes_on[b], b, a, V)
-    curve = along(before, np.stack([a, b], axis=1), after, tension)
-    return Mean(t.edge[rim], np.arange(len(rim)), (t.n_edges, len(rim))) @ curve
+    return along(before, np.stack([a, b], axis=1), after, tension)

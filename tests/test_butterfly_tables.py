@@ -5,13 +5,12 @@ import sys
 import numpy as np
 import pytest
 
-from subdivision import Mesh, plan, shapes, subdivide
+from subdivision import Boundary, Mesh, Topology, plan, shapes, subdivide
 from subdivision.butterfly_steps import ButterflyLater, ButterflyStep
 from subdivision.butterfly_tables import DEPTHS
 from subdivision.kernels import Rows
 from subdivision.poles import VALENCES
 from subdivision.schemes import MODIFIED_BUTTERFLY
-from subdivision.stage import Step
 from subdivision.tables import Tables
 from tests.test_middle_tables import closed
 from tests.test_tables import assert_same, staged
@@ -86,8 +85,27 @@ def test_a_pole_of_too_many_triangles_is_made_step_by_step() -> None:
     assert_same(made, made.apply(mesh.points), staged(mesh, MODIFIED_BUTTERFLY, 4), "pole")
 
 
-def test_open_meshes_are_told_in_stages() -> None:
-    mesh = Mesh(shapes.triangle_sheet().topology, shapes.triangle_sheet().points)
-    made = PLANS.once(mesh.topology, MODIFIED_BUTTERFLY, 2)
-    assert all(isinstance(step, Step) for step in made.steps)
-    assert_same(made, made.apply(mesh.points), staged(mesh, MODIFIED_BUTTERFLY, 2), "open")
+@pytest.mark.usefixtures("eager")
+def test_open_meshes_are_made_step_by_step() -> None:
+    for name, mesh in opened().items():
+        for rule in (Boundary.EDGE, Boundary.EDGE_AND_CORNER, Boundary.HIDE):
+            control = Mesh(mesh.surface.with_boundary(rule), mesh.points)
+            expected = staged(control, MODIFIED_BUTTERFLY, 4)
+            once, kept = (lay(control.topology, MODIFIED_BUTTERFLY, 4) for lay in (PLANS.once, plan))
+            assert [type(step) for step in once.steps] == [ButterflyStep] + [ButterflyLater] * 3
+            for made in (once, kept):
+                assert_same(made, made.apply(control.points), expected, f"{name}, {rule.value}")
+
+
+def opened() -> dict[str, Mesh]:
+    """Sheets, fans and closed meshes without a vertex, down to one triangle, in any order; and sharp corners."""
+    found = {name: shapes.SHAPES[name]() for name in ("triangle-sheet", "triangle-fan")}
+    assert all(mesh.surface.boundary.any() for mesh in found.values())
+    draw = np.random.default_rng(4)
+    for name, mesh in closed().items():
+        faces, gone = mesh.surface.loops(), draw.choice(mesh.surface.origin)
+        kept = [faces[f] for f in draw.permutation(len(faces)) if gone not in faces[f]]
+        found[f"{name}, open"] = Mesh(Topology.from_faces(kept, len(mesh.points)), mesh.points)
+    corners = {int(v): 10.0 for v in np.flatnonzero(found["ball, open"].surface.on_boundary)[:2]}
+    pinned = Topology.from_faces(found["ball, open"].surface.loops(), 30, corners=corners)
+    return found | {"ball, pinned": Mesh(pinned, found["ball, open"].points)}
