@@ -1,13 +1,12 @@
 """Paints a layout's strokes, marks and type with Qt."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
-from math import ceil, log
 
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QByteArray, QDataStream, QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QPainter, QPainterPath, QPen, QPixmap, QPolygonF
+from PySide6.QtGui import QPainter, QPainterPath, QPen, QPolygonF
 
 from app.draw.flat import FLAT, Disc, Polygon
 from app.draw.picture import Colour
@@ -19,21 +18,14 @@ from subdivision.arrays import Floats, Indices
 KINDS = MOVE, LINE, CURVE, CUBIC, CLOSE = 1, 2, 3, 4, 79
 """How matplotlib calls the vertices of an outline."""
 
-GROWTH = 2**0.25
-"""From one size of stamps to the next."""
 
-EDGE = 0.3
-"""Room for what reaches beyond the extent of type, relative to its size."""
-
-
-def paint(painter: QPainter, primitives: Iterable[Primitive], *, is_hasty: bool = False) -> None:
-    """Paint everything in order; in haste type is stamped."""
+def paint(painter: QPainter, primitives: Iterable[Primitive], words: Callable[[QPainter, Text], None]) -> None:
+    """Paint everything in order, type by ``words``."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, is_hasty)
     for each in primitives:
         match each:
             case Text():
-                (stamp if is_hasty else type_)(painter, each)
+                words(painter, each)
             case Plate():
                 _plate(painter, each)
             case Stroke():
@@ -57,34 +49,6 @@ def type_(painter: QPainter, text: Text) -> None:
         painter.strokePath(path, pen)
     painter.fillPath(path, colour(text.colour))
     painter.restore()
-
-
-def stamp(painter: QPainter, text: Text) -> None:
-    """Words and mathematics as an image made before, perhaps a little larger: for as long as they move."""
-    scale = painter.device().devicePixelRatio()
-    size = GROWTH ** ceil(log(text.size * scale, GROWTH))
-    image, left, top = _stamp(text.text, text.bold, text.colour, text.halo, size)
-    part = text.size / size
-    x = text.x - ANCHOR[text.align] * measure(text.text, text.size, text.bold)[0]
-    painter.setOpacity(text.opacity)
-    where = QRectF(x - part * left, text.y - part * top, part * image.width(), part * image.height())
-    painter.drawPixmap(where, image, QRectF(image.rect()))
-    painter.setOpacity(1.0)
-
-
-@lru_cache(maxsize=1024)
-def _stamp(words: str, bold: bool, ink: Colour, halo: Colour | None, size: float) -> tuple[QPixmap, int, int]:
-    """The image of type of a size, and where in it the type begins: right and down from its corner."""
-    width, ascent, descent = measure(words, size, bold)
-    room = ceil(EDGE * size) + 1
-    left, top = room, ceil(ascent) + room
-    image = QPixmap(ceil(width) + 2 * room, top + ceil(descent) + room)
-    image.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(image)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    type_(painter, Text(left, top, words, size, ink, bold=bold, halo=halo))
-    painter.end()
-    return image, left, top
 
 
 @lru_cache(maxsize=1024)

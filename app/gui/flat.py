@@ -1,6 +1,8 @@
 """The transparent sheet over the panes: everything flat of a picture, painted again only where it has changed."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import chain, repeat
+from typing import TypeAlias
 
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPixmap, QRegion, QResizeEvent
@@ -8,11 +10,15 @@ from PySide6.QtWidgets import QWidget
 
 from app.draw.layout import extent
 from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
-from app.gui.brush import paint
+from app.gui.brush import paint, type_
 from app.gui.lens import MAGNIFICATION
+from app.gui.stamps import stamp
 
 RIM = 3
 """Pixels round everything, for soft edges."""
+
+Placed: TypeAlias = tuple[Primitive, QRect]
+"""Something flat, and the pixels it may touch."""
 
 
 class Flat(QWidget):
@@ -26,17 +32,28 @@ class Flat(QWidget):
         super().__init__(parent)
         self._below = below
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self._shown: tuple[Primitive, ...] = ()
+        self._shown: tuple[Placed, ...] = ()
         self._sheet, self._stale = QPixmap(), QRegion()
         self._lens: QPointF | None = None
-        self._is_blank = False
+        self._is_blank = self._is_hasty = False
+        self._rough = QRegion()
 
-    def lay(self, shown: Sequence[Primitive], lens: QPointF | None = None, *, is_blank: bool = False) -> None:
-        """Show these from now on, twice as large about ``lens``, if there is one."""
-        was, self._shown = self._shown, tuple(shown)
+    def lay(
+        self,
+        shown: Sequence[Primitive],
+        lens: QPointF | None = None,
+        *,
+        is_blank: bool = False,
+        is_hasty: bool = False,
+    ) -> None:
+        """Show these from now on, twice as large about ``lens``, if there is one; in haste while they move."""
+        was, self._shown = self._shown, placed(self._shown, shown)
         looks, self._lens, self._is_blank = (self._lens, self._is_blank), lens, is_blank
         is_usual = looks == (lens, is_blank) == (None, False)
         new = changed(was, self._shown) if is_usual else QRegion(self.rect())
+        self._is_hasty = is_hasty
+        if not is_hasty:
+            new, self._rough = new + self._rough, QRegion()
         self._stale += new
         self.update(new + QRect(0, 0, 1, 1))  # at least so much, to be called for the rest
 
@@ -46,13 +63,12 @@ class Flat(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         self._below()
-        painter = QPainter(self)
-        if self._is_blank:
-            painter.fillRect(self.rect(), Qt.GlobalColor.black)
-        else:
-            self._renew()
-            painter.drawPixmap(0, 0, self._sheet)
-        painter.end()
+        self._renew()
+        with QPainter(self) as painter:
+            if self._is_blank:
+                painter.fillRect(self.rect(), Qt.GlobalColor.black)
+            else:
+                painter.drawPixmap(0, 0, self._sheet)
 
     def _renew(self) -> None:
         """Paint on the sheet what has changed."""
@@ -64,30 +80,44 @@ class Flat(QWidget):
             self._stale = QRegion(self.rect())
         if self._stale.isEmpty():
             return
-        painter, where = QPainter(self._sheet), self._stale
-        self._stale = QRegion()
-        painter.setClipRegion(where)
-        painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_Clear)
-        painter.fillRect(where.boundingRect(), Qt.GlobalColor.transparent)
-        painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_SourceOver)
-        if self._lens is not None:
-            painter.translate(self._lens * (1 - MAGNIFICATION))
-            painter.scale(MAGNIFICATION, MAGNIFICATION)
-            paint(painter, self._shown)
-        else:
-            paint(painter, (each for each in self._shown if where.intersects(touched(each))))
-        painter.end()
+        where, self._stale = self._stale, QRegion()
+        words = stamp if self._is_hasty else type_
+        if self._is_hasty:
+            self._rough += where
+        with QPainter(self._sheet) as painter:
+            painter.setClipRegion(where)
+            painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_Clear)
+            painter.fillRect(where.boundingRect(), Qt.GlobalColor.transparent)
+            painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_SourceOver)
+            if self._lens is not None:
+                painter.translate(self._lens * (1 - MAGNIFICATION))
+                painter.scale(MAGNIFICATION, MAGNIFICATION)
+                paint(painter, (each for each, _ in self._shown), words)
+            else:
+                paint(painter, (each for each, there in self._shown if where.intersects(there)), words)
 
 
-def changed(before: Sequence[Primitive], after: Sequence[Primitive]) -> QRegion:
-    """Where two pictures differ: round what only one of them has; round all where their order differs."""
-    if before == after:
-        return QRegion()
-    old, new = set(before), set(after)
-    is_in_order = [each for each in before if each in new] == [each for each in after if each in old]
+def placed(before: Sequence[Placed], after: Sequence[Primitive]) -> tuple[Placed, ...]:
+    """Each of ``after`` with the pixels it may touch, as they were where the same stood at its turn ``before``."""
+    old = chain(before, repeat((None, QRect())))
+    return tuple((new, where if was == new else touched(new)) for (was, where), new in zip(old, after, strict=False))
+
+
+def changed(before: Sequence[Placed], after: Sequence[Placed]) -> QRegion:
+    """Where two pictures differ: round what is not the same at its turn, or, of another number, in the same order."""
+    if len(before) == len(after):
+        differ = [pair for pair in zip(before, after, strict=True) if pair[0] != pair[1]]
+        return _joined(where for pair in differ for _, where in pair)
+    old, new = dict(before), dict(after)
+    both = old | new
+    is_in_order = [each for each, _ in before if each in new] == [each for each, _ in after if each in old]
+    return _joined(both[each] for each in (old.keys() ^ new.keys() if is_in_order else both))
+
+
+def _joined(places: Iterable[QRect]) -> QRegion:
     found = QRegion()
-    for each in old ^ new if is_in_order else old | new:
-        found += touched(each)
+    for each in places:
+        found += each
     return found
 
 

@@ -270,7 +270,7 @@ class Viewport(QWidget):
         is_between = self._state.is_playing and self._state.at != int(self._state.at)
         self._kept = self._kept if is_between else Kept()
         flat = overlay(self._picture, self.width(), self._tall(), cameras=self.cameras(), words=False, kept=self._kept)
-        self._flat.lay(flat, self._lens, is_blank=self._state.options.blank)
+        self._flat.lay(flat, self._lens, is_blank=self._state.options.blank, is_hasty=is_between)
 
     def _refresh(self) -> None:
         """What is in space has changed."""
