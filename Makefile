@@ -4,7 +4,7 @@
 
 export SCREEN := $(or $(DISPLAY),$(WAYLAND_DISPLAY),$(filter Darwin,$(shell uname -s)))
 
-.PHONY: run test pictures words formulas benchmarks clean
+.PHONY: run test pictures words type benchmarks clean
 
 run:
 	@.ci/setup run
@@ -32,9 +32,9 @@ words: # every text into the catalogues of assets/languages, where what is new w
 	@.ci/setup test
 	@.venv/bin/python -m tests.words
 
-formulas: # what the lessons' formulas look like into the table of those that are set beforehand
+type: # the letters and formulas of the lessons into the tables of what is set beforehand
 	@.ci/setup test
-	@.venv/bin/python -m tests.formulas
+	@.venv/bin/python -m tests.type
 
 strength: # every hostile file, every fault and 20,000 actions, in full: takes an hour and a half
 	@.ci/setup test

@@ -1,7 +1,7 @@
 """Mathematics as outlines: what stands between dollars, set by mathtext.
 
 Setting a formula takes as long as painting a window.  What the lessons show is set beforehand, in a table that
-``make formulas`` makes; it serves the version of mathtext by which it was made.
+``make type`` makes; it serves the version of mathtext by which it was made.
 """
 
 import json

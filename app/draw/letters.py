@@ -1,7 +1,8 @@
 """Where the letters of plain words stand, in Inter: asked of the shaper once for each two in a row, then remembered.
 
 Shaping is slow, and a page of words has few pairs of letters.  How far a letter is from the next depends on these two
-alone; the shape of a sign, such as a bracket or a colon, also on its neighbours.
+alone; the shape of a sign, such as a bracket or a colon, also on its neighbours.  What the lessons need is asked
+beforehand, in a table that ``make type`` makes; it serves the version of matplotlib by which it was made.
 """
 
 import re
@@ -12,8 +13,10 @@ from itertools import pairwise
 from operator import add
 from typing import TypeAlias
 
+import matplotlib
 import numpy as np
 from matplotlib.font_manager import fontManager, get_font
+from matplotlib.ft2font import GlyphIndexType, LoadFlags
 from matplotlib.textpath import TextToPath
 
 from app import ASSETS
@@ -21,6 +24,7 @@ from subdivision.arrays import Floats, Indices
 
 FONTS = ASSETS / "fonts"
 REGULAR, BOLD = FONTS / "Inter-Regular.otf", FONTS / "Inter-SemiBold.otf"
+TABLE = ASSETS / "letters.tsv"
 FEATURES = ("tnum",)
 """Figures of one width: numbers that change while a stage plays do not jitter."""
 
@@ -39,15 +43,16 @@ REACH = 2
 Glyph: TypeAlias = tuple[Floats, Indices]
 """Its outline."""
 
-Letter: TypeAlias = tuple[float, float, Glyph]
-"""How far the next one is, how far it is above the baseline, its glyph: in units of the shaper."""
+Letter: TypeAlias = tuple[float, float, str]
+"""How far the next one is and how far it is above the baseline, in units of the shaper; the name of its glyph."""
 
-Key: TypeAlias = str | tuple[str, str]
-"""A letter and the next; beside a sign the letters up to it, and those after it."""
+BETWEEN = "\x1f"
+"""Stands in a key between the letters up to one and those after it."""
 
-_known: tuple[dict[Key, Letter], dict[Key, Letter]] = {}, {}
-_glyphs: tuple[OrderedDict[str, Glyph], OrderedDict[str, Glyph]] = OrderedDict(), OrderedDict()
-"""Of the regular typeface and of the bold one."""
+Known: TypeAlias = dict[str, Letter]
+"""The letters that have been asked for, by themselves and the next; beside a sign, by all that are near."""
+
+_glyphs: OrderedDict[str, Glyph] = OrderedDict()
 
 
 def advance(text: str, bold: bool) -> float:
@@ -60,7 +65,8 @@ def shape(text: str, bold: bool) -> Glyph:
     vertices: list[Floats] = [np.zeros((0, 2))]
     codes: list[Indices] = [np.zeros(0, dtype=np.uint8)]
     at = 0.0
-    for step, above, (v, c) in letters(text, bold):
+    for step, above, name in letters(text, bold):
+        v, c = _glyph(name)
         vertices.append(v + np.array([at, above]))
         codes.append(c)
         at += step
@@ -69,16 +75,27 @@ def shape(text: str, bold: bool) -> Glyph:
 
 def letters(text: str, bold: bool) -> list[Letter]:
     """The letters of a line."""
-    known, line = _known[bold], f"{text}{END}"
+    known, line = asked()[bold], f"{text}{END}"
     keys = _keys(line)
     if not known.keys() >= set(keys) and not (WESTERN.fullmatch(text) and _learn(line, keys, bold)):
         return list(_shaped(line, bold))
     return [known[key] for key in keys]
 
 
-def _learn(line: str, keys: list[Key], bold: bool) -> bool:
+@cache
+def asked() -> tuple[Known, Known]:
+    """What is known of the regular typeface and of the bold one: what was asked beforehand, and since."""
+    head, *rows = TABLE.read_text(encoding="utf-8").split("\n") if TABLE.exists() else [""]
+    found: tuple[Known, Known] = {}, {}
+    if head == f"matplotlib {matplotlib.__version__}":
+        for bold, key, step, above, name in (row.split("\t") for row in rows if row):
+            found[bold == "bold"][key] = float(step), float(above), name
+    return found
+
+
+def _learn(line: str, keys: list[str], bold: bool) -> bool:
     """Ask the shaper for the letters that are not known; whether it told one for each character."""
-    known = _known[bold]
+    known = asked()[bold]
     for places in _together([k for k, key in enumerate(keys) if key not in known], keys):
         start = max(places[0] - _left(keys[places[0]]), 0)
         stretch = line[start : places[-1] + _right(keys[places[-1]]) + 1]
@@ -89,27 +106,27 @@ def _learn(line: str, keys: list[Key], bold: bool) -> bool:
     return True
 
 
-def _keys(line: str) -> list[Key]:
+def _keys(line: str) -> list[str]:
     """What tells each letter of a line, but the last, apart."""
-    found: list[Key] = list(map(add, line, line[1:]))
+    found = list(map(add, line, line[1:]))
     for sign in SIGN.finditer(line):
         first, last = max(sign.start() - REACH, 0), min(sign.end() + REACH, len(found))
         for k in range(first, last):
-            found[k] = line[first : k + 1], line[k + 1 : last + 1]
+            found[k] = f"{line[first : k + 1]}{BETWEEN}{line[k + 1 : last + 1]}"
     return found
 
 
-def _left(key: Key) -> int:
+def _left(key: str) -> int:
     """How many letters before its own the shaper is to see."""
-    return 0 if isinstance(key, str) else 2 * REACH
+    return 2 * REACH if BETWEEN in key else 0
 
 
-def _right(key: Key) -> int:
+def _right(key: str) -> int:
     """How many letters after its own the shaper is to see."""
-    return 1 if isinstance(key, str) else len(key[1]) + REACH
+    return len(key.partition(BETWEEN)[2]) + REACH if BETWEEN in key else 1
 
 
-def _together(places: list[int], keys: list[Key]) -> list[list[int]]:
+def _together(places: list[int], keys: list[str]) -> list[list[int]]:
     """The places of letters that are shaped together, for the shaper is to see the same ones beside them."""
     found: list[list[int]] = []
     for k in places:
@@ -122,11 +139,23 @@ def _together(places: list[int], keys: list[Key]) -> list[list[int]]:
 
 def _shaped(line: str, bold: bool) -> Iterator[Letter]:
     """The letters of a line but the last, as the shaper sets them."""
-    font, glyphs = get_font(_files(bold)), _glyphs[bold]
+    font = get_font(_files(bold))
     font.set_size(TextToPath.FONT_SCALE, TextToPath.DPI)
-    placed, _, _ = TextToPath().get_glyphs_with_font(font, line, glyphs, features=FEATURES)
+    placed, _, _ = TextToPath().get_glyphs_with_font(font, line, _glyphs, features=FEATURES)
     for (name, x, y, _), (_, next_x, _, _) in pairwise(placed):
-        yield next_x - x, y, glyphs[name]
+        yield next_x - x, y, name
+
+
+def _glyph(name: str) -> Glyph:
+    """The outline of a glyph, which the shaper names by its typeface and number."""
+    if name not in _glyphs:
+        typeface, _, number = name.rpartition("-")
+        files = {REGULAR.stem: str(REGULAR), BOLD.stem: str(BOLD)}
+        font = get_font(files.get(typeface, _files(False)[1]))
+        font.set_size(TextToPath.FONT_SCALE, TextToPath.DPI)
+        font.load_glyph(GlyphIndexType(int(number, 16)), flags=LoadFlags.NO_HINTING)
+        _glyphs[name] = font.get_path()
+    return _glyphs[name]
 
 
 @cache
