@@ -2,6 +2,7 @@
 
 import argparse
 import errno
+import gc
 import json
 import os
 import signal
@@ -134,6 +135,14 @@ def _warn(fault: own.Fault) -> None:
 
 def open_window(options: argparse.Namespace) -> int:
     """Open the window, at a lesson and a step if they are named; or at what a link or a file holds."""
+    gc.disable()  # until it is open: what a start makes stays, and to look for garbage in it takes a tenth of the time
+    try:
+        return _opened(options)
+    finally:
+        gc.enable()
+
+
+def _opened(options: argparse.Namespace) -> int:
     from app.sessions.opening import meant
     from app.sessions.strict import KeepingError
 

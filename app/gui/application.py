@@ -2,6 +2,7 @@
 
 import ctypes
 import faulthandler
+import gc
 import logging
 import os
 import signal
@@ -83,6 +84,7 @@ def run(
     autosave.failed.connect(window.say)
     window.viewport.start()
     window.show()
+    QTimer.singleShot(0, look_for_garbage)
     if path is not None:
         window.opened(path)
     window.offer_to_restore(autosave)
@@ -100,6 +102,12 @@ def run(
     autosave.end()
     faults.leave()
     return status
+
+
+def look_for_garbage() -> None:
+    """From now on, but never in what the start has made: that would hold up the window each time."""
+    gc.freeze()
+    gc.enable()
 
 
 def application() -> QApplication:
