@@ -9,7 +9,6 @@ beside extraordinary vertices, round all vertices of one valence by one product.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TypeAlias
 
 import numpy as np
 from scipy.sparse import _sparsetools, csr_array, eye_array, vstack
@@ -66,11 +65,11 @@ class ButterflyStep:
             some = slice(begin, begin + AT_ONCE)
             corner, outer = taken(points, origin[some]), taken(points, beyond[some])
             side = turned(corner, -1)
-            side -= 1 / 2 * _both(outer)
+            side -= 1 / 2 * others(outer)
             side *= 1 / 4
             side += corner
             side *= 1 / 2
-            _add(edge[some].ravel(), side.reshape(-1, d), edges)
+            add(edge[some].ravel(), side.reshape(-1, d), edges)
         self.make_over(points, edges)
         return made
 
@@ -80,17 +79,17 @@ class ButterflyStep:
         if len(self.rim):
             ahead, behind, lean = self._leaning
             for h in (ahead, behind):
-                _add(self._edge.ravel()[h], taken(points, lean[0]) - taken(points, lean[1]), edges, -1 / 16)
+                add(self._edge.ravel()[h], taken(points, lean[0]) - taken(points, lean[1]), edges, -1 / 16)
             edges[self._edge.ravel()[self.rim]] = self._outline.apply(points)
         for h, _ in self._made_over:
             edges[h] = 0
         for spokes, (edge, share) in zip(self.spokes, self._made_over, strict=True):
             n = len(spokes)
-            ring = taken(points, taken(self.coarse.origin, _after(spokes)))
+            ring = taken(points, taken(self.coarse.origin, ahead_of(spokes)))
             made = (_round(self.beside, n) @ ring.reshape(n, -1)).reshape(ring.shape)
             made += CENTRE * taken(points, taken(self.coarse.origin, spokes[0]))
             made *= share[:, :, None]
-            _add(edge.ravel(), made.reshape(-1, d), edges)
+            add(edge.ravel(), made.reshape(-1, d), edges)
 
     def assembled(self) -> Rows:
         """The same as one sparse matrix."""
@@ -121,7 +120,7 @@ class ButterflyStep:
                     yield edge[some], vertex[some], np.full(np.count_nonzero(some), weight)
         for spokes, (edge, share) in zip(self.spokes, self._made_over, strict=True):
             around = _round(self.beside, len(spokes))
-            read = [*taken(origin.ravel(), _after(spokes)), taken(origin.ravel(), spokes[0])]
+            read = [*taken(origin.ravel(), ahead_of(spokes)), taken(origin.ravel(), spokes[0])]
             for vertex, weights in zip(read, [*around.T, np.full(len(spokes), CENTRE)], strict=True):
                 yield edge.ravel(), np.tile(vertex, len(spokes)), (weights[:, None] * share).ravel()
 
@@ -129,12 +128,6 @@ class ButterflyStep:
     def topology(self) -> Topology:
         """After the step."""
         return refine.triangles(self.coarse)
-
-    def after(self) -> "ButterflyLater":
-        """The step after it: half-edge ``3 h`` leaves the vertex that ``h`` left, along the first half of its edge."""
-        rim = np.concatenate([3 * self.rim, 3 * _after(self.rim) + 2])
-        step = ButterflyStep(self.topology, self.beside, rim, tuple(3 * some for some in self.spokes))
-        return ButterflyLater(self.coarse, step)
 
     @cached_property
     def _origin(self) -> Small:
@@ -159,8 +152,8 @@ class ButterflyStep:
 
         The parallelogram beyond a half-edge is as far from its origin as its end is from the corner on this side.
         """
-        ahead = _after(self.rim)
-        behind = _after(ahead)
+        ahead = ahead_of(self.rim)
+        behind = ahead_of(ahead)
         return ahead, behind, (taken(self.coarse.origin, ahead), taken(self.coarse.origin, behind))
 
     @cached_property
@@ -176,103 +169,6 @@ class ButterflyStep:
         return [(e, 1 / count[e]) for e in edges]
 
 
-@dataclass(frozen=True, eq=False)
-class ButterflyLater:
-    """The same as ``step``, quicker: told by the mesh ``before``, a quarter as large, of which a step has made its own.
-
-    Round the corner that a half-edge ``h`` leaves it makes the point inside the triangle, and adds
-    what is on its side to the points on both halves of its edge.
-    """
-
-    before: Topology
-    step: ButterflyStep
-
-    @property
-    def coarse(self) -> Topology:
-        """What it begins with."""
-        return self.step.coarse
-
-    @property
-    def n_points(self) -> int:
-        """How many points it makes."""
-        return self.step.n_points
-
-    @property
-    def topology(self) -> Topology:
-        """After the step."""
-        return self.step.topology
-
-    def after(self) -> "ButterflyLater":
-        """The step after it."""
-        return self.step.after()
-
-    def assembled(self) -> Rows:
-        """The same as one sparse matrix."""
-        return self.step.assembled()
-
-    def apply(self, points: Floats, out: Floats | None = None) -> Floats:
-        """(n_vertices, d) float -> (n_points, d) float, into ``out`` if there is one."""
-        t, (N, d) = self.before, points.shape
-        E = t.n_edges
-        made = np.empty((self.n_points, d)) if out is None else out
-        made[:N] = points
-        edges = made[N:]
-        halves, inner = edges[: 2 * E], edges[2 * E :].reshape(-1, 3, d)
-        halves.fill(0)
-        for begin in range(0, t.n_faces, AT_ONCE):
-            some = slice(begin, begin + AT_ONCE)
-            corner, ahead, right, left = (taken(points, index[some]) for index in self._around)
-            behind, beyond = turned(ahead, -1), turned(ahead, 1)
-            both = ahead + behind
-            inside = 8 * both
-            inside += 2 * (corner + beyond)
-            inside -= right
-            inside -= left
-            inside -= _both(corner)
-            np.multiply(inside, 1 / 16, out=inner[some])
-            corner *= 4
-            corner -= beyond
-            corner += 2 * both
-            ahead *= 2
-            ahead += corner
-            ahead -= left
-            behind *= 2
-            behind += corner
-            behind -= right
-            _add(self._half_ahead[some].ravel(), ahead.reshape(-1, d), halves, 1 / 16)
-            _add(self._half_behind[some].ravel(), behind.reshape(-1, d), halves, 1 / 16)
-        self.step.make_over(points, edges)
-        return made
-
-    @cached_property
-    def _around(self) -> tuple[Small, Small, Small, Small]:
-        """(n_faces, 3) int each: the vertex at each corner, the point ahead, and those right and left of the corner.
-
-        The point ahead is on the edge that leaves the corner; from there the one on the right is the next clockwise
-        round the vertex, and the one on the left the next but one counter-clockwise.  Where there is none it is the
-        origin of the half of the rim there, as ``step`` has it.
-        """
-        t, V = self.before, self.before.n_vertices
-        origin, edge, twin = (x.reshape(-1, 3) for x in (t.origin, V + t.edge, t.twin))
-        right, left = (taken(turned(edge, by).ravel(), twin) for by in (1, -1))
-        if len(self.step.rim):
-            right, left = np.where(twin < 0, origin, right), np.where(twin < 0, edge, left)
-        return origin, edge, right, turned(left, -1)
-
-    @cached_property
-    def _half_ahead(self) -> Small:
-        """(n_faces, 3) int: the half, at the corner, of the edge that leaves it."""
-        return refine.half_edges(self.before).astype(np.int32).reshape(-1, 3)
-
-    @cached_property
-    def _half_behind(self) -> Small:
-        """... and of the edge that arrives."""
-        return turned(self._half_ahead ^ 1, -1)
-
-
-Butterfly: TypeAlias = ButterflyStep | ButterflyLater
-
-
 def butterfly_step(t: Topology, beside: Beside) -> ButterflyStep:
     """One step on ``t``."""
     rim = np.flatnonzero(t.twin < 0)
@@ -285,19 +181,19 @@ def butterfly_step(t: Topology, beside: Beside) -> ButterflyStep:
         if n not in (0, 6):
             spokes = [first[counts == n]]
             while len(spokes) < n:
-                spokes.append(_after(taken(t.twin, spokes[-1])))
+                spokes.append(ahead_of(taken(t.twin, spokes[-1])))
             groups.append(np.stack(spokes))
     return ButterflyStep(t, beside, rim, tuple(groups))
 
 
-def _both(of_halfedges: Floats) -> Floats:
+def others(of_halfedges: Floats) -> Floats:
     """What the next and the previous half-edge of each of (n, 3, d) have together."""
     both = turned(of_halfedges, 1)
     both += turned(of_halfedges, -1)
     return both
 
 
-def _after(halfedges: Indices) -> Indices:
+def ahead_of(halfedges: Indices) -> Indices:
     """The next ones, in triangles."""
     return halfedges + np.where(halfedges % 3 == 2, -2, 1)
 
@@ -309,7 +205,7 @@ def _round(beside: Beside, n: int) -> Floats:
     return np.take(row, (np.arange(n) - np.arange(n)[:, None]) % n)
 
 
-def _add(at: Small, values: Floats, out: Floats, weight: float = 1) -> None:
+def add(at: Small, values: Floats, out: Floats, weight: float = 1) -> None:
     """Add ``weight`` times the ``values`` to ``out`` ``at`` their places."""
     n, d = values.shape
     places = np.arange(n, dtype=np.int32)

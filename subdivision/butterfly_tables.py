@@ -9,6 +9,7 @@ extraordinary, and from there on no other vertex is near enough to matter.
 import numpy as np
 
 from subdivision.arrays import Indices, taken
+from subdivision.butterfly_later import butterfly_after
 from subdivision.butterfly_steps import Beside, butterfly_step
 from subdivision.poles import VALENCES, Table, by_valence, poles, rows, shown
 from subdivision.tables import Tables, laid_out
@@ -61,9 +62,9 @@ def _ring(t: Topology, faces: Indices, n: int) -> Indices:
 def _computed(valences: list[int], depth: int, beside: Beside) -> list[Table]:
     """The points of the template round poles, from the rings."""
     t, first = poles(valences, splits=1)
-    steps = [butterfly_step(t, beside).after()]
+    steps = [butterfly_after(butterfly_step(t, beside))]
     while len(steps) < depth - 1:
-        steps.append(steps[-1].after())
+        steps.append(butterfly_after(steps[-1]))
     small, each = descendants(3, t.n_faces, depth)
     corners = steps[-1].topology.origin.reshape(-1, 3)[small + each * first[:, None]]
     own = corners.reshape(len(valences), -1)[:, template(3, depth).first]

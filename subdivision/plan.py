@@ -15,7 +15,8 @@ import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, frozen
-from subdivision.butterfly_steps import Beside, Butterfly, butterfly_step
+from subdivision.butterfly_later import Butterfly, butterfly_after
+from subdivision.butterfly_steps import Beside, butterfly_step
 from subdivision.butterfly_tables import DEPTHS as BUTTERFLY_DEPTHS
 from subdivision.butterfly_tables import butterfly_tables
 from subdivision.corner_blocks import Blocks, blocks
@@ -202,7 +203,8 @@ def _butterfly(t: Topology, beside: Beside, levels: int, fine: int) -> Plan:
     """Step by step, then by tables, which begin one step on; open meshes have none."""
     steps: list[Butterfly] = []
     while len(steps) < levels:
-        step, depth = steps[-1].after() if steps else butterfly_step(t, beside), levels - len(steps)
+        step = butterfly_after(steps[-1]) if steps else butterfly_step(t, beside)
+        depth = levels - len(steps)
         if steps and depth in BUTTERFLY_DEPTHS and fine > WORTH_TABLES:
             most = min(t.n_faces // FACES_A_KIND, fine // FINE_FACES_A_KIND)
             deep = butterfly_tables(t, depth, beside, most)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from subdivision import Boundary, Mesh, Topology, plan, shapes, subdivide
-from subdivision.butterfly_steps import ButterflyLater, ButterflyStep
+from subdivision.butterfly_later import ButterflyLater
+from subdivision.butterfly_steps import ButterflyStep
 from subdivision.butterfly_tables import DEPTHS
 from subdivision.kernels import Rows
 from subdivision.poles import VALENCES
