@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from subdivision.arrays import Indices, stable_order
+from subdivision.arrays import Indices, stable_order, taken
 from subdivision.words import phrase
 
 
@@ -39,20 +39,33 @@ def require_faces(sizes: Indices, origin: Indices, face: Indices, n_vertices: in
             ),
             faces=[f],
         )
+    if _differ(sizes, origin):
+        return
     visits = np.sort(face * n_vertices + origin)
     if (twice := np.flatnonzero(visits[1:] == visits[:-1])).size:
         f, v = divmod(int(visits[twice[0]]), n_vertices)
         raise TopologyError(phrase("face {f} visits vertex {v} twice; remove the repeated corner", f=f, v=v), faces=[f])
 
 
+def _differ(sizes: Indices, origin: Indices) -> bool:
+    """Whether all corners of each face differ; told only where faces are small and alike."""
+    k = int(sizes[0])
+    if k > 4 or (sizes != k).any():
+        return False
+    columns = np.ascontiguousarray(origin.reshape(-1, k).T)
+    return not any((columns[i] == columns[j]).any() for i in range(k) for j in range(i))
+
+
 def paired(a: Indices, b: Indices, face: Indices, n: int) -> tuple[Indices, Indices, Indices]:
     """Twin and edge of the half-edges from ``a`` to ``b``, and the ends of the edges: the only search there is."""
-    key = np.minimum(a, b) * n + np.maximum(a, b)
+    key = np.minimum(a, b)
+    key *= n
+    key += np.maximum(a, b)
     order = stable_order(key, n * n)
-    ordered, first = key[order], np.ones(len(key), dtype=bool)
-    np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
+    sorted_key = taken(key, order)
+    first = np.r_[True, sorted_key[1:] != sorted_key[:-1]]
     start = np.flatnonzero(first)
-    count = np.diff(start, append=len(key))
+    count = np.diff(np.r_[start, len(key)])
     _require_two_faces_an_edge(a, b, face, order, start, count)
     edge = np.empty(len(key), dtype=np.intp)
     edge[order] = np.cumsum(first) - 1
