@@ -223,10 +223,12 @@ def dragging() -> None:
 
 def lessons() -> None:
     """From one lesson to the next; and the longest time the thread of the window was away meanwhile."""
+    from app.gui.ahead import look_for_garbage_in_little
     from app.state import forward, open_lesson
     from tests.gui.watchdog import LIMIT, Watchdog
 
     pair = Pair()
+    look_for_garbage_in_little()  # as the program does when it has begun
     pair.wait(1.0)
     pair.session._timer.timeout.connect(pair.session._advance)
     with Watchdog(pair.window) as dog:

@@ -19,6 +19,9 @@ FAMILY = "Inter"
 ASCENT, DESCENT = 0.93, 0.25
 """Room for a line of plain words, relative to its size."""
 
+DOUBT = 0.02
+"""By how much words and the spaces between them may come nearer to each other than each by itself, at each space."""
+
 Extent: TypeAlias = tuple[float, float, float]
 """Width, ascent above the baseline, descent below it."""
 
@@ -56,6 +59,8 @@ def wrapped(text: str, size: float, width: float, bold: bool = False) -> tuple[s
         return ()
     words = _words(text)
     full = _broken(words, size, width, bold)
+    if len(full) == 1:
+        return full
     low, high = width / 2, width
     for _ in range(8):  # the narrowest measure that needs no more lines: no short last line
         middle = (low + high) / 2
@@ -64,14 +69,23 @@ def wrapped(text: str, size: float, width: float, bold: bool = False) -> tuple[s
 
 
 def _broken(words: list[str], size: float, width: float, bold: bool) -> tuple[str, ...]:
-    lines = [words[0]]
+    lines, about = [words[0]], _about(words[0], bold)
     for word in words[1:]:
-        longer = f"{lines[-1]} {word}"
-        if measure(longer, size, bold)[0] <= width:
-            lines[-1] = longer
+        longer, guess = f"{lines[-1]} {word}", about + _about(f" {word}", bold)
+        doubt = DOUBT * size * (1 + longer.count(" "))
+        is_clear = abs(guess * size - width) > doubt
+        if (guess * size if is_clear else measure(longer, size, bold)[0]) <= width:
+            lines[-1], about = longer, guess
         else:
             lines.append(word)
+            about = _about(word, bold)
     return tuple(line.strip() for line in lines)
+
+
+@lru_cache(maxsize=4096)
+def _about(text: str, bold: bool) -> float:
+    """The width of type of size 1, so far as it does not depend on what stands beside it."""
+    return measure(f"|{text}", 1.0, bold)[0] - measure("|", 1.0, bold)[0]
 
 
 def _words(text: str) -> list[str]:

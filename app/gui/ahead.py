@@ -30,6 +30,9 @@ QUIET, BETWEEN = 500, 10
 SWITCH = 0.001
 """Seconds a piece under way keeps the window's thread waiting."""
 
+GARBAGE = 5_000, 10, 20
+"""How many new objects are looked through at a time; how many times what is left of them; and all that is newer."""
+
 WAY = (0.9, 0.7, 0.5, 0.3, 0.1)
 """How many stages before a step the words are looked at that boxes have on the way there."""
 
@@ -50,7 +53,7 @@ class Ahead(QObject):
     def begin(self) -> None:
         """Get ready what comes next from now on, whenever nothing has changed for a while."""
         sys.setswitchinterval(SWITCH)
-        gc.freeze()  # what there is now stays: looking for garbage in it takes longer than a picture
+        look_for_garbage_in_little()
         self._session.changed.connect(self._wait)
         self._wait()
 
@@ -78,6 +81,12 @@ class Ahead(QObject):
         self._job = None
         if not self._quiet.isActive():
             self._quiet.start(BETWEEN)
+
+
+def look_for_garbage_in_little() -> None:
+    """What there is now stays: to look for garbage in all of it takes longer than a picture, in much of it as long."""
+    gc.freeze()
+    gc.set_threshold(*GARBAGE)
 
 
 def pieces(state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
