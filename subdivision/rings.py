@@ -238,16 +238,17 @@ def with_ring(t: Topology, ours: Mask) -> tuple[Topology, Indices, Mask]:
     k = t.n_halfedges // t.n_faces
     near = np.zeros(t.n_vertices, dtype=bool)
     near[t.origin.reshape(-1, k)[ours]] = True
-    kept = near[t.origin].reshape(-1, k).any(axis=1)
+    kept = taken(near, t.origin).reshape(-1, k).any(axis=1)
     h = np.flatnonzero(np.repeat(kept, k))
-    vertices, edges = (_marked(part[h], n) for part, n in ((t.origin, t.n_vertices), (t.edge, t.n_edges)))
+    origin, edge, next_, twin = (taken(part, h) for part in (t.origin, t.edge, t.next, t.twin))
+    vertices, edges = _marked(origin, t.n_vertices), _marked(edge, t.n_edges)
     new = np.full(t.n_halfedges + 1, -1)  # the last stands for what -1 points to
     new[h] = np.arange(len(h))
     part = Topology(
-        origin=(np.cumsum(vertices) - 1)[t.origin[h]],
-        next=new[t.next[h]],
-        twin=new[t.twin[h]],
-        edge=(np.cumsum(edges) - 1)[t.edge[h]],
+        origin=taken(np.cumsum(vertices) - 1, origin),
+        next=taken(new, next_),
+        twin=new.take(twin, mode="wrap"),
+        edge=taken(np.cumsum(edges) - 1, edge),
         face=np.repeat(np.arange(len(h) // k), k),
         n_vertices=int(vertices.sum()),
         edge_sharpness=t.edge_sharpness[edges],

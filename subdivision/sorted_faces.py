@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, Mask, distinct
+from subdivision.arrays import Floats, Indices, Mask, distinct, taken
 from subdivision.rings import Fan, Kind, Shape, Ways, ring
 from subdivision.sharp_rows import creases
 from subdivision.topology import Topology
@@ -76,16 +76,16 @@ def _images(kinds: list[list[int]], fans: list[Fan]) -> tuple[int, ...]:
 
 def _fans(t: Topology, counts: Indices) -> tuple[Indices, list[Fan]]:
     """Which of the fans each corner sees."""
-    code = counts[t.origin]
+    code = taken(counts, t.origin)
     smooth = np.flatnonzero(np.bincount(code))
     fans = [Fan(int(n) - 1, 0, closed=True) for n in smooth]
     rank = np.zeros(len(counts) and int(counts.max()) + 1, dtype=np.intp)
     rank[smooth] = np.arange(len(smooth))
-    code = rank[code]
+    code = taken(rank, code)
     if not t.is_smooth:
         special = np.zeros(t.n_vertices, dtype=bool)
         special[creases(t).vertices] = True
-        at = np.flatnonzero(special[t.origin])
+        at = np.flatnonzero(taken(special, t.origin))
         features = _features(t, at, int(counts.max()))
         first, which = distinct(features)
         code[at] = len(fans) + which
@@ -98,24 +98,24 @@ def _features(t: Topology, at: Indices, largest: int) -> Floats:
     left, right = (np.zeros((len(at), largest + 1)) for _ in range(2))
     faces = np.zeros((len(at), 2), dtype=np.intp)
     closed = np.zeros(len(at), dtype=bool)
-    left[:, 0] = t.edge_sharpness[t.edge[at]]
+    left[:, 0] = taken(t.edge_sharpness, taken(t.edge, at))
     here, g = np.arange(len(at)), at
     for j in range(1, largest + 1):
-        back = t.prev[g]
-        ahead = t.twin[back]
+        back = taken(t.prev, g)
+        ahead = taken(t.twin, back)
         closed[here[ahead == at[here]]] = True
         here, back, ahead = (x[ahead != at[here]] for x in (here, back, ahead))
-        left[here, j] = t.edge_sharpness[t.edge[back]]
+        left[here, j] = taken(t.edge_sharpness, taken(t.edge, back))
         here, g = here[ahead >= 0], ahead[ahead >= 0]
         faces[here, 0] = j
     here = np.flatnonzero(~closed)
     g = at[here]
     for j in range(1, largest + 1):
-        across = t.twin[g]
-        here, g = here[across >= 0], t.next[across[across >= 0]]
-        right[here, j] = t.edge_sharpness[t.edge[g]]
+        across = taken(t.twin, g)
+        here, g = here[across >= 0], taken(t.next, across[across >= 0])
+        right[here, j] = taken(t.edge_sharpness, taken(t.edge, g))
         faces[here, 1] = j
-    return np.column_stack([faces, closed, t.vertex_sharpness[t.origin[at]], left, right])
+    return np.column_stack([faces, closed, taken(t.vertex_sharpness, taken(t.origin, at)), left, right])
 
 
 def _fan(features: list[float]) -> Fan:
@@ -128,4 +128,4 @@ def _fan(features: list[float]) -> Fan:
 def _ranked(numbers: Indices) -> Indices:
     """The same numbers with the gaps closed, in the same order."""
     present = np.bincount(numbers) > 0
-    return (np.cumsum(present) - 1)[numbers]
+    return taken(np.cumsum(present) - 1, numbers)
