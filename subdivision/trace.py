@@ -238,8 +238,9 @@ class Trace:
         gone = np.ones(len(before), dtype=bool)
         gone[stage.carries[kept]] = False
         done = k + 1 == len(self.stages) or self.levels[k + 1] > self.levels[k]
+        points = after if t == 1 else (1 - t) * start + t * after
         return Frame(
-            stage.topology, (1 - t) * start + t * after, start, birth, stage.roles, was, stage, t,
+            stage.topology, points, start, birth, stage.roles, was, stage, t,
             self.mesh_at(k), before, self.roles_at(k), np.flatnonzero(gone), self.levels[k] + (done and t == 1),
         )  # fmt: skip
 

@@ -39,7 +39,8 @@ class Facets:
 class _Known:
     """What depends on connectivity only: ``columns`` (size, n_faces) are the corners, first of all, second of all ...
 
-    ``gather`` (n_vertices, n_faces) sums over the faces round each vertex.  ``last`` is how it was cut last.
+    ``gather`` (n_vertices, n_faces) sums over the faces round each vertex.  ``last`` is how it was cut last, ``made``
+    what was made last, of which points, and whether in haste.
     """
 
     corners: Indices
@@ -47,6 +48,7 @@ class _Known:
     columns: Indices
     gather: csr_array
     last: "_Cut | None" = None
+    made: tuple[Facets, Floats, bool] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +77,13 @@ def facets(faces: Faces, *, is_hasty: bool = False) -> Facets | None:
     known = _recalled(faces)
     if known is None:
         return None
+    made = known.made
+    if made is None or made[2] != is_hasty or not np.array_equal(made[1], faces.points):
+        known.made = made = _made(known, faces, is_hasty=is_hasty), faces.points, is_hasty
+    return made[0]
+
+
+def _made(known: _Known, faces: Faces, *, is_hasty: bool) -> Facets:
     places: Floats = np.ascontiguousarray(np.asarray(faces.points, dtype=float).T)
     corners = [places[:, column] for column in known.columns]
     area = _areas(corners)

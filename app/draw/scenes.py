@@ -1,5 +1,7 @@
 """From an instant of a trace to a scene: surface, net, ghost, markers by role, and what is pointed out."""
 
+from functools import lru_cache
+
 import numpy as np
 
 from app.draw import motion
@@ -60,6 +62,9 @@ PALE = 0.4
 FEW = 60
 """Up to so many points, ids and valences are written at them."""
 
+KNOWN = 6
+"""How many connectivities are known by the kinds of their edges."""
+
 PALEST, DEEPEST = 0.35, 0.8
 """How deep the colour of the lightest and of the heaviest contributor is."""
 
@@ -118,7 +123,8 @@ def _marker_radius(trace: Trace, frame: Frame, theme: Theme, fine: Connectivity)
     """Of an original point; the edges of what is ``fine`` are shorter than those of the frame, as they are more."""
     size = _extent(trace)
     ends = frame.topology.ends
-    lengths = np.linalg.norm(frame.points[ends[:, 0]] - frame.points[ends[:, 1]], axis=1)
+    ways = frame.points.take(ends[:, 0], axis=0) - frame.points.take(ends[:, 1], axis=0)
+    lengths = np.sqrt(np.einsum("ij,ij->i", ways, ways))
     apart = lengths[lengths > 1e-6 * max(size, 1e-9)]
     typical = float(np.median(apart)) if apart.size else size
     typical *= (len(ends) / fine.n_edges) ** 0.5 if len(ends) else 1.0
@@ -162,28 +168,45 @@ def _net(frame: Frame, theme: Theme, options: Options, share: float, fine: Conne
     if not options.net:
         return ()
     t = frame.topology
-    points, ends = frame.points[: t.n_vertices], t.ends
-    faint = ~_shown_vertices(t)[ends].all(axis=1)
-    new = frame.newborn[: t.n_vertices][ends].all(axis=1)
-    sharp = _sharp(t)
-    growth = float(frame.progress)
+    points, faint, outline, sharp, inner = frame.points[: t.n_vertices], *_kinds(t)
     width = theme.stroke * _stroke(fine, share)
-    strength = _strength(fine, share)
-    inner = ~(faint | sharp | _outline(t))
     parts = [
-        Lines(points, ends[faint], theme.faint, 0.7 * width),
-        Lines(points, ends[_outline(t) & ~faint], theme.edge, width),
-        Lines(points, ends[inner & ~new], theme.edge, width, strength),
-        Lines(points, ends[inner & new], theme.edge, width, strength * growth),
-        *_creases(t, points, ~faint & sharp, theme.ink, width),
+        Lines(points, t.ends[faint], theme.faint, 0.7 * width),
+        Lines(points, t.ends[outline], theme.edge, width),
+        *_within(frame, points, inner, theme.edge, width, _strength(fine, share)),
+        *_creases(t, points, sharp, theme.ink, width),
         *_corners(t, points, theme.ink, width),
     ]
     return tuple(p for p in parts if len(p.pairs) and p.opacity > 0)
 
 
+@lru_cache(maxsize=KNOWN)
+def _kinds(t: Connectivity) -> tuple[Mask, Mask, Mask, Mask]:
+    """(n_edges,) bool each: edges that only hidden faces have, and of the others the outline, the sharp, the rest."""
+    shown = _shown_vertices(t)
+    faint = ~(shown[t.ends[:, 0]] & shown[t.ends[:, 1]])
+    outline, sharp = _outline(t), _sharp(t)
+    return faint, outline & ~faint, sharp & ~faint, ~(faint | sharp | outline)
+
+
+def _within(
+    frame: Frame, points: Floats, inner: Mask, colour: Colour, width: float, strength: float
+) -> tuple[Lines, ...]:
+    """The edges within a surface, or of a curve: those that were there, and those that grow in."""
+    if not strength:
+        return ()
+    ends, newborn = frame.topology.ends, frame.newborn
+    new = newborn[ends[:, 0]] & newborn[ends[:, 1]]
+    growth = float(frame.progress)
+    return (
+        Lines(points, ends[inner & ~new], colour, width, strength),
+        Lines(points, ends[inner & new], colour, width, strength * growth),
+    )
+
+
 def _creases(t: Connectivity, points: Floats, sharp: Mask, colour: Colour, width: float) -> list[Lines]:
     """Sharp edges: the sharper, the heavier."""
-    if not isinstance(t, Topology):
+    if not isinstance(t, Topology) or not sharp.any():
         return []
     steps = np.ceil(2 * t.edge_sharpness) / 2
     return [

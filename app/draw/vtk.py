@@ -18,12 +18,13 @@ from app.draw.geometry import dashes, facets, worn
 from app.draw.glyphs import Glyphs, finish
 from app.draw.picture import Camera, Colour, Faces, Lines, Scene, Shape
 from app.draw.primitives import Area
+from app.draw.regular import Facets
 from app.draw.solid import (
     LIGHTS,
     SURFACE_LIGHT,
     dash_of,
 )  # fmt: skip
-from subdivision.arrays import Indices
+from subdivision.arrays import Floats, Indices
 
 SAMPLES = 8
 """Multisampling of stills."""
@@ -142,14 +143,17 @@ class _Surface:
         self.mapper.SetResolveCoincidentTopologyToPolygonOffset()
         self.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 4.0)
         self.actor.SetMapper(self.mapper)
+        self._shown: Facets | None = None
         self._cut: Indices | None = None
         finish(self.actor, ambient=SURFACE_LIGHT[0], diffuse=SURFACE_LIGHT[1], specular=0.0)
         renderer.AddViewProp(self.actor)
 
     def show(self, faces: Faces, *, is_hasty: bool) -> None:
         cut = facets(faces, is_hasty=is_hasty)
-        self.data.SetPoints(vtk_arrays.points(cut.points))
-        self.data.GetPointData().SetNormals(vtk_arrays.array(cut.normals))
+        if cut is not self._shown:
+            self._shown = cut
+            self.data.SetPoints(vtk_arrays.points(cut.points))
+            self.data.GetPointData().SetNormals(vtk_arrays.array(cut.normals))
         if cut.triangles is not self._cut:
             self._cut = cut.triangles
             self.data.SetPolys(vtk_arrays.cells(cut.triangles))
@@ -169,18 +173,30 @@ class _Strokes:
         self.mapper.ScalarVisibilityOff()
         self.actor.SetMapper(self.mapper)
         self.actor.GetProperty().LightingOff()
+        self._points: Floats | None = None
         self._pairs: Indices | None = None
         renderer.AddViewProp(self.actor)
 
     def show(self, lines: Lines, pixels: float) -> None:
-        self.data.SetPoints(vtk_arrays.points(lines.points))
-        if self._pairs is None or not np.array_equal(self._pairs, lines.pairs):
-            self._pairs = lines.pairs
-            self.data.SetLines(vtk_arrays.cells(lines.pairs))
+        points, pairs = _needed(lines)
+        if self._points is None or not np.array_equal(self._points, points):
+            self._points = points
+            self.data.SetPoints(vtk_arrays.points(points))
+        if self._pairs is None or not np.array_equal(self._pairs, pairs):
+            self._pairs = pairs
+            self.data.SetLines(vtk_arrays.cells(pairs))
         look = self.actor.GetProperty()
         look.SetColor(*lines.colour)
         look.SetOpacity(lines.opacity)
         look.SetLineWidth(max(pixels, 1.0))
+
+
+def _needed(lines: Lines) -> tuple[Floats, Indices]:
+    """Points and pairs; where few strokes have many points, only those that they need."""
+    if 4 * len(lines.pairs) > len(lines.points):
+        return lines.points, lines.pairs
+    used, pairs = np.unique(lines.pairs, return_inverse=True)
+    return lines.points[used], pairs.reshape(-1, 2)
 
 
 def _pooled(wanted: Sequence[Any], pool: list[Any], make: Any, renderer: Any) -> list[tuple[Any, Any]]:
