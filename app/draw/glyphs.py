@@ -25,8 +25,9 @@ FINE, COARSE, HASTY = 32, 12, 4
 """Corners to the outline of a ball: where markers are few and large, where they are many and small, and where those
 must follow the hand."""
 
-QUICK, FEWEST = 0.35, 8
-"""The part of these corners that there is while a processor draws what moves; at least so many."""
+QUICK, FEWEST, FAINTEST = 0.35, 8, 6
+"""The part of these corners that there is while a processor draws what moves; at least so many; and so many at most
+where markers are hidden."""
 
 
 def resolution(n: int, *, is_hasty: bool = False) -> int:
@@ -39,9 +40,10 @@ class Glyphs:
 
     def __init__(self, shape: Shape, *, solid: bool) -> None:
         self.shape = shape
-        self.drawn = [_Instances(partial(_glyph, shape), translucent=not solid)]
-        self.drawn += [_Instances(partial(_sphere, HALO_RADIUS), rim=True)] if shape is Shape.HALO else []
-        self.faint = _Instances(partial(_glyph, shape), translucent=True)
+        self.data = vtkPolyData()
+        self.drawn = [_Instances(self.data, partial(_glyph, shape), translucent=not solid)]
+        self.drawn += [_Instances(self.data, partial(_sphere, HALO_RADIUS), rim=True)] if shape is Shape.HALO else []
+        self.faint = _Instances(self.data, partial(_glyph, shape), colour="faint", translucent=True)
         self._largest = 0.0
         self._corners, self._is_quick = FINE, False
 
@@ -57,8 +59,9 @@ class Glyphs:
         ``perspective`` is 0 in a parallel view, else 1.
         """
         for instances in self.drawn:
-            instances.uniforms.SetUniformf("lift", LIFT * self._largest * depth)
-            instances.uniforms.SetUniformf("perspective", perspective)
+            if instances.actor.GetVisibility():
+                instances.uniforms.SetUniformf("lift", LIFT * self._largest * depth)
+                instances.uniforms.SetUniformf("perspective", perspective)
 
     def hasten(self, is_hasty: bool) -> None:
         """Draw each marker from fewer triangles."""
@@ -70,7 +73,7 @@ class Glyphs:
         corners = min(self._corners, max(round(part * self._corners), FEWEST))
         for instances in self.drawn:
             instances.model(corners)
-        self.faint.model(min(corners, COARSE))
+        self.faint.model(min(corners, FAINTEST if self._is_quick else COARSE))
 
     def show(self, markers: Sequence[Markers], *, solid: bool, is_hasty: bool = False) -> None:
         if not markers and not self.faint.actor.GetVisibility():
@@ -80,30 +83,47 @@ class Glyphs:
         radius = [m.radius[w] for m, w in zip(markers, which, strict=True)]
         colour = [vtk_arrays.rgba(m.colour, m.opacity[w]) for m, w in zip(markers, which, strict=True)]
         n = sum(map(len, points))
-        some = n > 0
         self._largest = max((float(r.max()) for r in radius if len(r)), default=0.0)
-        if some:
+        for instances in (*self.drawn, self.faint):
+            instances.actor.SetVisibility(n > 0)
+        if n:
             self._corners = resolution(n, is_hasty=is_hasty)
             self._model()
-        for instances in (*self.drawn, self.faint):
-            instances.actor.SetVisibility(some)
-            if some:
-                faint = HIDDEN if instances is self.faint else 1.0
-                instances.show(np.vstack(points), np.concatenate(radius), np.vstack(colour) * [1, 1, 1, faint])
+            self._fill(np.vstack(points), np.concatenate(radius), np.vstack(colour))
+
+    def _fill(self, points: Floats, radius: Floats, colour: Floats) -> None:
+        self.data.SetPoints(vtk_arrays.points(points))
+        arrays = {
+            "radius": vtk_arrays.array(radius),
+            "colour": vtk_arrays.colours(colour),
+            "faint": vtk_arrays.colours(colour * [1, 1, 1, HIDDEN]),
+        }
+        for name, array in arrays.items():
+            array.SetName(name)
+            self.data.GetPointData().AddArray(array)
+        self.data.Modified()
 
 
 class _Instances:
-    """One shape at many points, each with its size and colour."""
+    """One shape at the points of some data, with the sizes and the ``colour`` these have there."""
 
-    def __init__(self, source: Callable[[int, int], Any], *, translucent: bool = False, rim: bool = False) -> None:
-        self.data, self.mapper, self.actor = vtkPolyData(), vtkGlyph3DMapper(), vtkActor()
-        self.mapper.SetInputData(self.data)
+    def __init__(
+        self,
+        data: Any,
+        source: Callable[[int, int], Any],
+        *,
+        colour: str = "colour",
+        translucent: bool = False,
+        rim: bool = False,
+    ) -> None:
+        self.mapper, self.actor = vtkGlyph3DMapper(), vtkActor()
+        self.mapper.SetInputData(data)
         self.source, self._corners = source, 0
         self.model(FINE)
         self.mapper.SetScaleModeToScaleByMagnitude()
         self.mapper.SetScaleArray("radius")
         self.mapper.SetScalarModeToUsePointFieldData()
-        self.mapper.SelectColorArray("colour")
+        self.mapper.SelectColorArray(colour)
         self.mapper.SetColorModeToDirectScalars()
         self.mapper.OrientOff()
         self.actor.SetMapper(self.mapper)
@@ -123,13 +143,6 @@ class _Instances:
         if corners != self._corners:  # VTK would prepare the same solid again
             self._corners = corners
             self.mapper.SetSourceData(self.source(corners, get_ident()))  # threads share no object of VTK's
-
-    def show(self, points: Floats, radius: Floats, colour: Floats) -> None:
-        self.data.SetPoints(vtk_arrays.points(points))
-        for name, array in (("radius", vtk_arrays.array(radius)), ("colour", vtk_arrays.colours(colour))):
-            array.SetName(name)
-            self.data.GetPointData().AddArray(array)
-        self.data.Modified()
 
 
 def finish(actor: Any, *, ambient: float, diffuse: float, specular: float) -> None:
