@@ -8,7 +8,7 @@ from typing import Any
 
 
 def put_off(name: str) -> None:
-    """Whoever imports the module from now on gets a stand-in for it, which becomes the module at its first use."""
+    """Whoever imports this module of a package from now on gets a stand-in, which loads the module at its first use."""
     package, _, last = name.rpartition(".")
     if name not in sys.modules and (spec := find_spec(name)) is not None:
         stand_in = ModuleType(name)
