@@ -227,26 +227,27 @@ def _icon(name: str, theme_name: str, sizes: tuple[int, ...]) -> QIcon:
     faded = mixed(theme.panel, theme.ink, 0.35)
     for ink, mode in ((theme.ink, QIcon.Mode.Normal), (faded, QIcon.Mode.Disabled)):
         drawing = (ASSETS / "icons" / f"{name}.svg").read_text().replace("currentColor", colour(ink).name())
+        read = QSvgRenderer(QByteArray(drawing.encode()))
         for size in sizes:
-            found.addPixmap(drawn(drawing, size), mode)
+            found.addPixmap(drawn(read, size), mode)
     return found
 
 
-def drawn(svg: str, size: int) -> QPixmap:
+def drawn(svg: QSvgRenderer, size: int) -> QPixmap:
     """An SVG as a square picture of ``size`` pixels."""
     pixmap = QPixmap(QSize(size, size))
     pixmap.fill(Qt.GlobalColor.transparent)
     painter = QPainter(pixmap)
-    QSvgRenderer(QByteArray(svg.encode())).render(painter, QRectF(0, 0, size, size))
+    svg.render(painter, QRectF(0, 0, size, size))
     painter.end()
     return pixmap
 
 
 def studio_icon() -> QIcon:
     """The program's own icon."""
-    found = QIcon()
+    found, read = QIcon(), QSvgRenderer(QByteArray((ASSETS / "icons" / "studio.svg").read_bytes()))
     for size in (16, 32, 48, 128, 256):
-        found.addPixmap(drawn((ASSETS / "icons" / "studio.svg").read_text(), size))
+        found.addPixmap(drawn(read, size))
     return found
 
 
