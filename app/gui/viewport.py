@@ -94,7 +94,7 @@ class Viewport(QWidget):
     # -- life -----------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Bring up VTK; slow, so it waits until the window has been painted."""
+        """Bring up VTK: before the window is shown, so that its first picture is whole."""
         from pyvistaqt import QtInteractor
 
         from app.draw.vtk import ScenePainter

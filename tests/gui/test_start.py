@@ -29,6 +29,39 @@ def test_without_a_screen_there_is_one_plain_sentence(display):
     assert "Traceback" not in done.stderr
 
 
+PROGRAM = """
+import gc, os, sys
+from PySide6.QtCore import QTimer
+from app import cli
+from app.gui.window import Window
+
+def look():
+    print(gc.isenabled(), gc.get_freeze_count() > 100_000, "matplotlib.figure" in sys.modules, flush=True)
+    os._exit(0)
+
+shown = Window.showEvent
+def show(self, event):
+    print(gc.isenabled(), self.viewport.canvas.isHidden(), flush=True)
+    shown(self, event)
+    QTimer.singleShot(200, look)
+
+Window.showEvent = show
+cli.main(["14", "--language", "en"])
+"""
+
+
+@pytest.mark.window
+def test_the_window_is_shown_with_its_picture_and_garbage_is_looked_for_from_then_on(tmp_path):
+    env = {**os.environ, "HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", PROGRAM], env=env, capture_output=True, text=True, timeout=60)
+    assert (done.stderr, done.stdout.splitlines()) == ("", ["False False", "True True False"])
+
+
+def test_qt_comes_after_all_that_it_would_look_into():
+    told = "import sys, app.gui; print('PySide6' in sys.modules, 'pyvista.plotting' in sys.modules)"
+    assert subprocess.check_output([sys.executable, "-c", told], text=True, timeout=60) == "False True\n"
+
+
 @pytest.mark.parametrize(
     ("mesh", "scheme"),
     [(shapes.cube(), QUAD_CENTROID), (shapes.octahedron(), TRIANGLE_CENTROID)],
