@@ -5,7 +5,8 @@ edges.  The points of these make all that the point ever becomes, in a constant 
 a vertex: a block of 4, 16, 64 ... points, one product of matrices for all blocks of a kind.  Where everything is
 regular it is the biquadratic B-spline of nine points, if the scheme is [DS78]_.
 
-Not so where the mesh ends, where a vertex has two faces, or where there are so many kinds that tables do not pay.
+Not so where the mesh ends, where a vertex has two faces, where a face or vertex has very many corners, or where there
+are so many kinds that tables do not pay: these are made step by step.
 """
 
 from dataclasses import dataclass
@@ -23,6 +24,9 @@ AT_ONCE = 2048
 
 BLOCKS_A_KIND = 6
 """What a kind must stand for on average to be worth a table."""
+
+LARGEST = 64
+"""Faces and vertices of more corners are too rare for a table of their own."""
 
 Sizes = tuple[int, int, int, int]
 """How many corners the faces round a point have, counter-clockwise."""
@@ -169,7 +173,7 @@ def blocks(t: Topology, wave: Wave, numbering: Numbering, depth: int) -> Blocks 
     if not t.is_smooth or (t.twin < 0).any():
         return None
     valence = np.bincount(t.origin, minlength=t.n_vertices)
-    if valence[valence > 0].min() < 3 or t.face_sizes.min() < 3:
+    if valence[valence > 0].min() < 3 or max(valence.max(), t.face_sizes.max()) > LARGEST:
         return None
     base = int(valence.max()) + 1
     pair = np.repeat(t.face_sizes * base, t.face_sizes) + valence[t.origin]

@@ -140,10 +140,10 @@ class Later:
             np.matmul(rule, read[2:-2], out=out[1::2, ::2])
             np.matmul(rule, half, out=out[::2, ::2])
         for some in _runs(self.rows):
-            read = taken(seen, self.rows[:, some]).reshape(n + 3, -1)
-            out = along[:, some.start * d : some.stop * d]
-            out[1::2] = read[2:-2]
-            np.matmul(rule, read, out=out[::2])
+            row = taken(seen, self.rows[:, some]).reshape(n + 3, -1)
+            made_of_it = along[:, some.start * d : some.stop * d]
+            made_of_it[1::2] = row[2:-2]
+            np.matmul(rule, row, out=made_of_it[::2])
 
     def _look_beyond(self, seen: Floats, tension: Fraction) -> None:
         """Write what lies beyond the corners behind the points."""

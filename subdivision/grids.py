@@ -10,7 +10,7 @@ Points are numbered: first the control vertices, in their order; then the points
 the second of each ...; then likewise those of the edges, from the end of the half-edge of lower number.  Faces and
 half-edges keep the numbers the stages give them.  After one step so do the points.
 
-Not for meshes that end, nor for faces other than quads: these are told in stages.
+Not for meshes that end, for faces other than quads, nor for vertices of very many: these are told in stages.
 """
 
 from dataclasses import dataclass, replace
@@ -23,6 +23,9 @@ from subdivision import refine
 from subdivision.arrays import Floats, Indices, constant, short, taken, turned
 from subdivision.grid_steps import First, Later
 from subdivision.topology import Topology
+
+LARGEST_FAN = 64
+"""Vertices of more faces are too rare for a table of their own, which grows with the square."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +97,7 @@ class Grids:
 
 def grids(t: Topology, tension: Fraction, levels: int) -> Grids | None:
     """``levels`` steps, 1 or more; None where they are not made of grids."""
-    if not t.is_smooth or not t.is_quadrilateral or (t.twin < 0).any():
+    if not t.is_smooth or not t.is_quadrilateral or (t.twin < 0).any() or t.valence.max() > LARGEST_FAN:
         return None
     fans = _fans(t)
     return Grids(t, tension, _first(t, fans), tuple(_later(t, fans, 1 << k) for k in range(1, levels)))

@@ -82,7 +82,7 @@ def test_a_deep_mesh_is_made_of_blocks_by_itself(scheme: Scheme) -> None:
 def test_what_is_no_block_is_made_step_by_step(scheme: Scheme) -> None:
     two_faces = Mesh(Topology.from_faces([[0, 1, 2, 3], [3, 2, 1, 0]]), np.random.default_rng(5).normal(size=(4, 3)))
     levels = 3 * steps_that_double(scheme)
-    for mesh in (two_faces, shapes.quad_sheet(), shapes.triangle_fan()):
+    for mesh in (two_faces, shapes.quad_sheet(), shapes.triangle_fan(), shapes.bipyramid(70)):
         if scheme.accepts(mesh.topology):
             made = plan(mesh.topology, scheme, levels)
             assert all(isinstance(step, CornerStep | Rows) for step in made.steps)

@@ -74,11 +74,11 @@ def test_a_deep_mesh_is_made_of_grids_by_itself_and_control_points_stay() -> Non
 
 
 @pytest.mark.usefixtures("eager")
-def test_an_open_mesh_is_told_in_stages() -> None:
-    mesh = shapes.quad_sheet()
-    laid_out = PLANS.once(mesh.topology, KOBBELT, 2)
-    assert all(isinstance(step, Step) for step in laid_out.steps)
-    assert_same(laid_out, laid_out.apply(mesh.points), staged(mesh, KOBBELT, 2), "sheet")
+def test_an_open_mesh_and_a_very_large_fan_are_told_in_stages() -> None:
+    for mesh in (shapes.quad_sheet(), shapes.quad_bipyramid(70)):
+        laid_out = PLANS.once(mesh.topology, KOBBELT, 2)
+        assert all(isinstance(step, Step) for step in laid_out.steps)
+        assert_same(laid_out, laid_out.apply(mesh.points), staged(mesh, KOBBELT, 2), "in stages")
 
 
 @pytest.mark.parametrize("w", [Fraction(1, 16), Fraction(1, 20)])

@@ -243,3 +243,15 @@ def test_faces_are_counted_before_they_are_made(scheme: Scheme, name: str) -> No
     for levels in range(4):
         assert scheme.faces_after(topology, levels) == made.n_faces
         made = scheme.step(made).topology
+
+
+@pytest.mark.parametrize("n", [3, 31, 33, 70])
+def test_two_fans_at_a_vertex_are_refused_however_large_they_are(n: int) -> None:
+    one = shapes.quad_bipyramid(n).surface
+    tip, V = int(np.argmax(one.valence)), one.n_vertices
+    faces = one.loops()
+    closed = [[v if v == tip else v + V for v in face] for face in faces]
+    for other in (closed, [[tip, V, V + 1, V + 2]]):
+        with pytest.raises(TopologyError, match="bow tie") as refused:
+            Topology.from_faces(faces + other, 2 * V + 3)
+        assert refused.value.vertices == (tip,)
