@@ -1,6 +1,7 @@
 """What may come next is got ready while nothing happens: lessons told, words set, so that they open at once.
 
-Telling a lesson and setting a formula for the first time take up to half a second; done before, they are remembered.
+Telling a lesson and laying out its first picture for the first time take as long as some pictures; done before, they
+are remembered.
 Pieces are small and one at a time, in another thread; after any change there is a pause.
 """
 
@@ -90,12 +91,14 @@ def look_for_garbage_in_little() -> None:
 
 
 def pieces(state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
-    """The open lesson from here to its end, then the beginning of each other, then all the rest of them."""
-    if not bench.is_open(here := state()):
-        yield from played(here.lesson, state, viewport)
+    """All lessons told; the open one from here to its end, the beginning of each other, all the rest of them."""
+    here = state()
     others = [each for each in built_in() if each is not here.lesson]
     for lesson in others:
         yield partial(segments, lesson)
+    if not bench.is_open(here):
+        yield from played(here.lesson, state, viewport)
+    for lesson in others:
         yield partial(_drawn, lesson, 0, state(), viewport)
         yield partial(room, open_lesson(state(), lesson), viewport.width(), viewport.window().height())
     for lesson in others:

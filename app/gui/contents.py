@@ -88,7 +88,8 @@ class Contents(QWidget):
         was = self._shown
         if was is None or was.lesson.id != state.lesson.id:
             self.list.setCurrentIndex(self._index_of(state.lesson))
-            self.list.viewport().update()
+            for lesson in (state.lesson, was.lesson if was is not None else state.lesson):
+                self.list.update(self._index_of(lesson))
         if was is None or was.options.theme != state.options.theme:
             self._dress(state.options.theme)
         self._shown = state
