@@ -84,13 +84,13 @@ def run(
     autosave.failed.connect(window.say)
     window.viewport.start()
     window.show()
-    QTimer.singleShot(0, look_for_garbage)
     if path is not None:
         window.opened(path)
     window.offer_to_restore(autosave)
     QTimer.singleShot(0, lambda: window.authoring.begin(shelf.usual_place(), own, is_trusted))
     ahead = Ahead(window.session, window.viewport)
     QTimer.singleShot(0, ahead.begin)
+    QTimer.singleShot(0, gc.enable)  # from now on garbage is looked for, but not in what the start has made
     signal.signal(signal.SIGINT, lambda *_: window.close())
     pulse = QTimer(interval=200)  # lets Python see Ctrl-C
     pulse.timeout.connect(lambda: None)
@@ -102,12 +102,6 @@ def run(
     autosave.end()
     faults.leave()
     return status
-
-
-def look_for_garbage() -> None:
-    """From now on, but never in what the start has made: that would hold up the window each time."""
-    gc.freeze()
-    gc.enable()
 
 
 def application() -> QApplication:
