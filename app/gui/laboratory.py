@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, Self
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
@@ -84,11 +84,10 @@ class Laboratory(Late):
         self._about = ()
         self._session.changed.emit(self._session.state)  # not to this panel: another may be in its place by now
 
-    def inherit(self, before: Late) -> None:
+    def inherit(self, before: Self) -> None:
         """Take over what the panel before had chosen."""
         super().inherit(before)
-        if isinstance(before, Laboratory):
-            self.vectors.inherit(before.vectors)
+        self.vectors.inherit(before.vectors)
 
     def show_state(self, state: State) -> None:
         is_open = bench.is_open(state) and state.lab is not None

@@ -1,5 +1,7 @@
 """Small pieces that panels are put together from."""
 
+from typing import Self
+
 from PySide6.QtCore import QPointF, QSize, Qt
 from PySide6.QtGui import QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QLabel, QScrollArea, QVBoxLayout, QWidget
@@ -53,7 +55,7 @@ class Late(QWidget):
             self._is_made = True
             self.make()
 
-    def inherit(self, before: "Late") -> None:
+    def inherit(self, before: Self) -> None:
         """Have parts if the panel before had."""
         if before._is_made:
             self.need()

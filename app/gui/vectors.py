@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Self
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont
@@ -110,10 +110,10 @@ class Vectors(Late):
             self._about = vectors
             self._tell(vectors)
 
-    def inherit(self, before: Late) -> None:
+    def inherit(self, before: Self) -> None:
         """Take over which point is ringed and which pass is chosen."""
         super().inherit(before)
-        if not isinstance(before, Vectors) or not before._is_made:
+        if not before._is_made:
             return
         self.lattice.ring = before.lattice.ring
         self.passes.setCurrentRow(before.passes.currentRow())
