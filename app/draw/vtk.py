@@ -15,6 +15,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 
 from app.draw import vtk_arrays
 from app.draw.geometry import dashes, facets, worn
+from app.draw.glow import glow
 from app.draw.glyphs import Glyphs, finish
 from app.draw.picture import Camera, Colour, Faces, Lines, Scene, Shape
 from app.draw.primitives import Area
@@ -28,6 +29,9 @@ from subdivision.arrays import Floats, Indices
 
 SAMPLES = 8
 """Multisampling of stills."""
+
+LIT = 2000
+"""Points of a surface up to which light at its corners is sooner worked out here than by who draws it."""
 
 
 class ScenePainter:
@@ -43,6 +47,7 @@ class ScenePainter:
         self.renderer.camera_set = True  # else pyvista moves the camera before its first picture
         self._window = plotter.render_window
         self._over = _layer_above(self.renderer, self._window)
+        self._is_hasty = False
         self._faces: list[_Surface] = []
         self._lines: list[_Strokes] = []
         self._markers = {(shape, solid): Glyphs(shape, solid=solid) for shape in Shape for solid in (True, False)}
@@ -57,6 +62,7 @@ class ScenePainter:
         point = height / 1000
         self.renderer.SetUseDepthPeeling(any(f.opacity < 1 for f in scene.faces))
         for faces, surface in _pooled(scene.faces, self._faces, _Surface, self.renderer):
+            surface.hasten(self._is_hasty)
             surface.show(faces, is_hasty=scene.is_hasty)
         for lines, strokes in _pooled(scene.lines, self._lines, _Strokes, self.renderer):
             strokes.show(dashes(lines, dash_of(scene.camera)) if lines.dashed else lines, lines.width * point)
@@ -80,6 +86,8 @@ class ScenePainter:
         if camera.scale:
             there.SetParallelScale(part * camera.scale)
         self._over.SetActiveCamera(there)
+        for surface in self._faces:
+            surface.light(camera)
 
     def clip(self, scene: Scene) -> None:
         """Near and far planes just round what is there."""
@@ -112,13 +120,16 @@ class ScenePainter:
     def hasten(self, is_hasty: bool) -> None:
         """Draw quickly what moves.
 
-        Markers have fewer triangles; what is translucent is blended as it comes and not by weight, which takes as long
-        as all the rest.
+        Markers have fewer triangles, and light on small surfaces is worked out at corners only; what is translucent is
+        blended as it comes and not by weight, which takes as long as all the rest.
         """
+        self._is_hasty = is_hasty
         for renderer in (self.renderer, self._over):
             renderer.SetUseOIT(not is_hasty)
         for glyphs in self._markers.values():
             glyphs.hasten(is_hasty)
+        for surface in self._faces:
+            surface.hasten(is_hasty)
 
     def background(self, colour: Colour) -> None:
         self.renderer.SetBackground(*colour)
@@ -145,6 +156,9 @@ class _Surface:
         self.actor.SetMapper(self.mapper)
         self._shown: Facets | None = None
         self._cut: Indices | None = None
+        self._colours: Floats | None = None
+        self._camera: Camera | None = None
+        self._is_hasty = False
         finish(self.actor, ambient=SURFACE_LIGHT[0], diffuse=SURFACE_LIGHT[1], specular=0.0)
         renderer.AddViewProp(self.actor)
 
@@ -157,11 +171,35 @@ class _Surface:
         if cut.triangles is not self._cut:
             self._cut = cut.triangles
             self.data.SetPolys(vtk_arrays.cells(cut.triangles))
-        colours = worn(faces, cut)
-        self.mapper.SetScalarVisibility(colours is not None)
-        self.data.GetPointData().SetScalars(None if colours is None else vtk_arrays.colours(colours))
+        self._colours = worn(faces, cut)
         self.actor.GetProperty().SetColor(*faces.colour)
         self.actor.GetProperty().SetOpacity(faces.opacity)
+        if not self._is_hasty:
+            self._dress()
+
+    def hasten(self, is_hasty: bool) -> None:
+        """Work out the light at corners only."""
+        if is_hasty != self._is_hasty:
+            self._is_hasty = is_hasty
+            self._dress()
+
+    def light(self, camera: Camera) -> None:
+        """The surface is seen by this camera."""
+        self._camera = camera
+        if self._is_hasty:
+            self._dress()
+
+    def _dress(self) -> None:
+        look, colours, is_lit = self.actor.GetProperty(), self._colours, True
+        if self._is_hasty and self._camera is not None and self._shown is not None and len(self._shown.points) <= LIT:
+            plain = np.array(look.GetColor()) if colours is None else colours
+            colours, is_lit = plain * glow(self._shown, self._camera)[:, None], False
+        ambient, diffuse = SURFACE_LIGHT if is_lit else (0.0, 1.0)
+        look.SetLighting(is_lit)
+        look.SetAmbient(ambient)
+        look.SetDiffuse(diffuse)
+        self.mapper.SetScalarVisibility(colours is not None)
+        self.data.GetPointData().SetScalars(None if colours is None else vtk_arrays.colours(colours))
 
 
 class _Strokes:
