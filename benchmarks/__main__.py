@@ -114,20 +114,20 @@ def creased_and_open() -> None:
 
 
 def beyond() -> None:
-    """As many faces as Catmull-Clark makes: mid-edge takes two steps for one, Kobbelt begins with its quads."""
+    """Each beside Catmull-Clark on the same mesh; mid-edge takes two steps for one, sqrt(3) three; Kobbelt has quads."""
     title("the schemes beyond, a face, beside Catmull-Clark", "this", "CC")
     for n, levels, rounds in ((20_000, 2, ROUNDS), (3000, 4, 3)):
-        control = ball(n)
-        plain = Ours(control, CATMULL_CLARK, levels)
-        quads, steps = Ours(quadrangulated(control), KOBBELT, levels - 1), levels + levels // 2
-        others = [Ours(control, DOO_SABIN, levels), Ours(control, MID_EDGE, 2 * levels), quads]
-        others += [Ours(control, MODIFIED_BUTTERFLY, levels), Ours(control, SQRT3, steps)]
-        n_faces = CATMULL_CLARK.faces_after(plain.topology(), levels)
+        control, quads = ball(n), quadrangulated(ball(n))
+        plain, plain_quads = Ours(control, CATMULL_CLARK, levels), Ours(quads, CATMULL_CLARK, levels - 1)
+        others = [Ours(control, DOO_SABIN, levels), Ours(control, MID_EDGE, 2 * levels)]
+        others += [Ours(quads, KOBBELT, levels - 1)]
+        others += [Ours(control, MODIFIED_BUTTERFLY, levels), Ours(control, SQRT3, levels + levels // 2)]
         for other in others:
-            made = other.scheme.faces_after(other.topology(), other.levels)
+            beside = plain_quads if other.control is quads else plain
+            n_faces, made = (each.scheme.faces_after(each.topology(), each.levels) for each in (beside, other))
             case = f"{other.control.name}, {other.scheme.name}, {other.levels} levels, {made:,} faces"
             for what in ("cold", "warm"):
-                a, b = in_turns(getattr(other, what), getattr(plain, what), rounds=rounds)
+                a, b = in_turns(getattr(other, what), getattr(beside, what), rounds=rounds)
                 line(f"{case}: {what}", a * n_faces / made, b, 2.0)
 
 
