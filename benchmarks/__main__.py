@@ -114,7 +114,7 @@ def creased_and_open() -> None:
 
 
 def beyond() -> None:
-    """Each beside Catmull-Clark on the same mesh; mid-edge takes two steps for one, sqrt(3) three; Kobbelt has quads."""
+    """Each beside Catmull-Clark on the same mesh; mid-edge takes two steps for one, Kobbelt needs quads."""
     title("the schemes beyond, a face, beside Catmull-Clark", "this", "CC")
     for n, levels, rounds in ((20_000, 2, ROUNDS), (3000, 4, 3)):
         control, quads = ball(n), quadrangulated(ball(n))
