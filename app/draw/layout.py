@@ -441,13 +441,17 @@ def _fullest(diagram: Diagram, group: int, cells: _Cells, least: float) -> tuple
 
 def _room(box: Box, text: str, cells: _Cells) -> float:
     """The largest size at which a box holds its words."""
-    lines = text.splitlines()
-    if not lines:
-        return float("inf")
     across, down = cells.of(box)
-    tall = max([IN_BOX * len(lines), *(sum(measure(line, 1.0)[1:]) for line in lines)])
-    wide = max((measure(line, 1.0)[0] for line in lines), default=0.0)
-    return min(0.94 * down / tall, 0.92 * across / max(wide, 1e-9))
+    wide, tall = _block(text)
+    return min(0.94 * down / tall, 0.92 * across / max(wide, 1e-9)) if tall else float("inf")
+
+
+@lru_cache(maxsize=2048)
+def _block(text: str) -> tuple[float, float]:
+    """Width and height of the lines of a box, in type of size 1."""
+    found = [measure(line, 1.0) for line in text.splitlines()]
+    wide = max((line[0] for line in found), default=0.0)
+    return wide, max([IN_BOX * len(found), *(up + down for _, up, down in found)])
 
 
 def _box(box: Box, cells: _Cells, said: str, size: float, line: float) -> list[Primitive]:
