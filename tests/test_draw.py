@@ -5,6 +5,7 @@ import re
 from dataclasses import replace
 from xml.etree import ElementTree
 
+import matplotlib
 import numpy as np
 import pytest
 
@@ -88,6 +89,10 @@ def test_letters_that_join_or_run_leftwards_are_left_to_the_shaper():
         assert letters(text, bold=True) == list(_shaped(f"{text}{END}", bold=True))
 
 
+@pytest.mark.skipif(
+    formulas.TABLE.read_text(encoding="utf-8").partition("\n")[0] != f"matplotlib {matplotlib.__version__}",
+    reason="the table is of another version of mathtext, which may have set them otherwise",
+)
 def test_the_formulas_set_beforehand_are_those_of_the_lessons_as_mathtext_sets_them():
     before = {text: json.loads(box) for text, box in formulas.prepared().items()}
     assert json.loads(json.dumps(met())) == before, "the lessons' formulas have changed: make type"
