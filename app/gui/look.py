@@ -131,9 +131,12 @@ class Style(QProxyStyle):
 
 def dress(app: QApplication, theme: Theme) -> None:
     """Give the whole program the colours of a theme."""
+    is_other = (wanted := sheet(theme)) != app.styleSheet()
+    if is_other:  # only then: Qt goes through every widget
+        app.setStyleSheet("")  # one sheet for another takes twice as long as none and then the other
     app.setFont(type_face(14))
     app.setPalette(palette(theme))
-    if (wanted := sheet(theme)) != app.styleSheet():  # Qt would go through every widget again
+    if is_other:
         app.setStyleSheet(wanted)
 
 
