@@ -85,12 +85,12 @@ def boxed(text: str) -> Box:
 @cache
 def _typefaces() -> Path:
     """The folder of those that mathtext brings."""
-    return Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+    return (Path(matplotlib.get_data_path()) / "fonts" / "ttf").resolve()
 
 
 def _typeface(file: Path) -> str:
     """The name of a typeface that mathtext brings; the whole path of another."""
-    return file.name if file.parent == _typefaces() else str(file)
+    return file.name if file.resolve().parent == _typefaces() else str(file)
 
 
 @cache
