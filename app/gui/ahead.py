@@ -21,9 +21,11 @@ from app.gui.session import Session
 from app.gui.viewport import Viewport
 from app.laboratory import bench
 from app.log import LOG
-from app.state import State, at_stop, open_lesson, segments, stops
+from app.state import State, at_stop, open_lesson, segments, stops, valence_of
+from app.words import LANGUAGES, catalogue
 from lessons import built_in
 from lessons.script import Kind, Lesson
+from subdivision.extraordinary import analysis
 
 QUIET, BETWEEN = 500, 10
 """Milliseconds without a change before the first piece, and from one piece to the next."""
@@ -91,8 +93,15 @@ def look_for_garbage_in_little() -> None:
 
 
 def pieces(state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
-    """All lessons told; the open one from here to its end, the beginning of each other, all the rest of them."""
+    """Languages read, the laboratory and all lessons told; then pictures.
+
+    Those of the open lesson from here to its end come first, the beginning of each other, all the rest of them.
+    """
     here = state()
+    for code in LANGUAGES:
+        yield partial(catalogue, code)
+    if not bench.is_open(here):
+        yield partial(_entered, here, viewport)
     others = [each for each in built_in() if each is not here.lesson]
     for lesson in others:
         yield partial(segments, lesson)
@@ -111,6 +120,15 @@ def played(lesson: Lesson, state: Callable[[], State], viewport: Viewport) -> It
         yield partial(_drawn, lesson, k, state(), viewport)
         for before in WAY:
             yield partial(_drawn, lesson, k, state(), viewport, before)
+
+
+def _entered(state: State, viewport: Viewport) -> None:
+    """Open the laboratory, and look at what it says of itself."""
+    there = bench.enter(state)
+    room(there, viewport.width(), viewport.window().height())
+    overlay(compose(there), *viewport.room(), words=False)
+    if there.lab is not None and there.now.lead.trace.control.topology.n_faces:
+        analysis(there.lab.rules[0].scheme, valence_of(there))
 
 
 def _drawn(lesson: Lesson, step: int, state: State, viewport: Viewport, before: float = 0.0) -> None:
