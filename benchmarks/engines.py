@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.files import Control, write
 from subdivision import Mesh, Plan, Scheme, Topology, plan, subdivide
-from subdivision.tables import forget
+from subdivision.plans.tables import forget
 
 FOLDER = Path(__file__).parent
 BUILD = FOLDER.parent / "build" / "benchmarks"

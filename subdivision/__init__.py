@@ -1,7 +1,7 @@
 """Subdivision curves and surfaces: topology, stages, schemes.  No windows, no graphics."""
 
 from subdivision.manifold import TopologyError
-from subdivision.plan import Plan, plan
+from subdivision.plans.plan import Plan, plan
 from subdivision.rows import Connectivity, Grid, Polyline
 from subdivision.scheme import Scheme
 from subdivision.stage import Role, Stage, Stencil, Step

@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from subdivision.corner_numbers import Numbering
 from subdivision.exact import Exact
 from subdivision.manifold import TopologyError
 from subdivision.operators import Operator
+from subdivision.plans.corner_numbers import Numbering
 from subdivision.refine import Refinement
 from subdivision.rows import Connectivity
 from subdivision.stage import Stage, Step

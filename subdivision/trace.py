@@ -9,7 +9,7 @@ import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, frozen
 from subdivision.manifold import TopologyError
-from subdivision.plan import is_swift, once
+from subdivision.plans.plan import is_swift, once
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.size import STAGED, SWIFT, TRACED, require_room

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from subdivision import Boundary, Mesh, Topology, plan, shapes, subdivide
-from subdivision.butterfly_later import ButterflyLater
-from subdivision.butterfly_steps import ButterflyStep
-from subdivision.butterfly_tables import DEPTHS
-from subdivision.kernels import Rows
-from subdivision.poles import VALENCES
+from subdivision.plans.butterfly_later import ButterflyLater
+from subdivision.plans.butterfly_steps import ButterflyStep
+from subdivision.plans.butterfly_tables import DEPTHS
+from subdivision.plans.kernels import Rows
+from subdivision.plans.poles import VALENCES
+from subdivision.plans.tables import Tables
 from subdivision.schemes import MODIFIED_BUTTERFLY
-from subdivision.tables import Tables
 from tests.test_middle_tables import closed
 from tests.test_tables import assert_same, staged
 
-PLANS = sys.modules["subdivision.plan"]
+PLANS = sys.modules["subdivision.plans.plan"]
 
 
 @pytest.fixture

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from subdivision import Connectivity, Mesh, Polyline, Scheme, Topology, plan, shapes, subdivide
-from subdivision.corner_blocks import Blocks, table
-from subdivision.corner_numbers import BY_MIDPOINTS
-from subdivision.corner_steps import CornerStep
-from subdivision.kernels import Rows
+from subdivision.plans.corner_blocks import Blocks, table
+from subdivision.plans.corner_numbers import BY_MIDPOINTS
+from subdivision.plans.corner_steps import CornerStep
+from subdivision.plans.kernels import Rows
 from subdivision.schemes import CHAIKIN, MID_EDGE, SCHEMES
 from subdivision.schemes.doo_sabin import cosine_weights
 from subdivision.schemes.mid_edge import two_steps
 from tests.test_tables import QUADS, TRIANGLES, assert_same, staged
 
-PLANS = sys.modules["subdivision.plan"]
+PLANS = sys.modules["subdivision.plans.plan"]
 DUAL = [scheme for scheme in SCHEMES if scheme.corners]
 schemes = pytest.mark.parametrize("scheme", DUAL, ids=lambda s: s.name)
 PRISM = [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *([k, (k + 1) % 5, (k + 1) % 5 + 5, k + 5] for k in range(5))]
@@ -26,7 +26,7 @@ def eager(monkeypatch: pytest.MonkeyPatch) -> None:
     """Blocks however small the mesh is."""
     for name in ("WORTH_TABLES", "SMALL"):
         monkeypatch.setattr(PLANS, name, 0)
-    monkeypatch.setattr(sys.modules["subdivision.corner_blocks"], "BLOCKS_A_KIND", 0)
+    monkeypatch.setattr(sys.modules["subdivision.plans.corner_blocks"], "BLOCKS_A_KIND", 0)
 
 
 def steps_that_double(scheme: Scheme) -> int:

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from subdivision import Mesh, Polyline, Scheme, Topology, plan, shapes, subdivide
-from subdivision.grid_steps import curve
-from subdivision.grids import Grids, small_quads
+from subdivision.plans.grid_steps import curve
+from subdivision.plans.grids import Grids, small_quads
 from subdivision.schemes import CATMULL_CLARK, KOBBELT
 from subdivision.schemes.four_point import four_point
 from subdivision.schemes.kobbelt import kobbelt
 from subdivision.stage import Step
 from tests.test_tables import QUADS, assert_same, staged
 
-PLANS = sys.modules["subdivision.plan"]
+PLANS = sys.modules["subdivision.plans.plan"]
 
 
 @pytest.fixture

@@ -8,14 +8,14 @@ from scipy.spatial import ConvexHull
 
 from subdivision import Mesh, Topology, plan, shapes, subdivide
 from subdivision.arrays import Floats
-from subdivision.kernels import Rows
-from subdivision.middle_steps import MiddleStep
-from subdivision.middle_tables import DEPTHS, MiddleTables
-from subdivision.poles import VALENCES
+from subdivision.plans.kernels import Rows
+from subdivision.plans.middle_steps import MiddleStep
+from subdivision.plans.middle_tables import DEPTHS, MiddleTables
+from subdivision.plans.poles import VALENCES
 from subdivision.schemes import SQRT3
 from tests.test_tables import TRIANGLES, assert_same, staged
 
-PLANS = sys.modules["subdivision.plan"]
+PLANS = sys.modules["subdivision.plans.plan"]
 
 
 @pytest.fixture

@@ -10,16 +10,16 @@ from hypothesis import strategies as st
 
 from subdivision import Boundary, Grid, Mesh, Plan, Polyline, Scheme, Topology, TopologyError, plan, shapes, subdivide
 from subdivision.arrays import Floats
-from subdivision.kernels import Kernel, Rows
-from subdivision.later import Later
-from subdivision.mirrors import seen_mirrored
+from subdivision.plans.kernels import Kernel, Rows
+from subdivision.plans.later import Later
+from subdivision.plans.mirrors import seen_mirrored
+from subdivision.plans.sorted_faces import sorted_faces
+from subdivision.plans.tables import Tables
+from subdivision.plans.templates import descendants, template
 from subdivision.schemes import CATMULL_CLARK, LOOP, QUAD_CENTROID, SCHEMES, lane_riesenfeld, tensor_product
-from subdivision.sorted_faces import sorted_faces
 from subdivision.stage import Step
-from subdivision.tables import Tables
-from subdivision.templates import descendants, template
 
-PLANS, TABLES = (sys.modules[f"subdivision.{name}"] for name in ("plan", "tables"))
+PLANS, TABLES = (sys.modules[f"subdivision.plans.{name}"] for name in ("plan", "tables"))
 FAST = [scheme for scheme in SCHEMES if scheme.reach]
 QUADS, TRIANGLES = (["cube", "plus-sign", "quad-bipyramid", "quad-fan", "quad-sheet", "torus", "mug"],
                     ["tetrahedron", "octahedron", "bipyramid", "triangle-fan", "triangle-sheet", "triangle-torus"])

@@ -20,11 +20,11 @@ import numpy as np
 
 from subdivision import meshes
 from subdivision.averages import edge_midpoints, face_centroids
-from subdivision.corner_numbers import BY_CORNERS
 from subdivision.cycles import round_faces
 from subdivision.exact import Exact, cosine
 from subdivision.limit_rules import dual_limit
 from subdivision.operators import Mean, Operator, Pick, identity, stack
+from subdivision.plans.corner_numbers import BY_CORNERS
 from subdivision.refine_dual import CORNERS, corners
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme

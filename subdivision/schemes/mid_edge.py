@@ -11,9 +11,9 @@ import numpy as np
 
 from subdivision import meshes
 from subdivision.averages import edge_midpoints, neighbours
-from subdivision.corner_numbers import BY_MIDPOINTS
 from subdivision.limit_rules import vertices_to
 from subdivision.operators import MeanOf, Operator, Pick, identity, stack
+from subdivision.plans.corner_numbers import BY_MIDPOINTS
 from subdivision.refine_dual import MIDPOINTS, midpoints
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme

@@ -16,7 +16,7 @@ from scipy.sparse import _sparsetools, csr_array, diags_array, vstack
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, Small, taken
 from subdivision.exact import Exact
-from subdivision.sharp_rows import SharpRows, sharp_rows
+from subdivision.plans.sharp_rows import SharpRows, sharp_rows
 from subdivision.topology import Topology
 
 Reach = Callable[[int], Exact | int]

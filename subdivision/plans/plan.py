@@ -15,24 +15,24 @@ import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, frozen
-from subdivision.butterfly_later import Butterfly, butterfly_after
-from subdivision.butterfly_steps import Beside, butterfly_step
-from subdivision.butterfly_tables import DEPTHS as BUTTERFLY_DEPTHS
-from subdivision.butterfly_tables import butterfly_tables
-from subdivision.corner_blocks import Blocks, blocks
-from subdivision.corner_numbers import Numbering
-from subdivision.corner_steps import CornerStep, Wave
-from subdivision.grids import Grids, grids
-from subdivision.kernels import Kernel, Rows, Rule, assembled, kernel
-from subdivision.later import Later, later
 from subdivision.meshes import as_mesh
-from subdivision.middle_steps import MiddleStep
-from subdivision.middle_steps import Reach as MiddleReach
-from subdivision.middle_tables import DEPTHS, MiddleTables, middle_tables
+from subdivision.plans.butterfly_later import Butterfly, butterfly_after
+from subdivision.plans.butterfly_steps import Beside, butterfly_step
+from subdivision.plans.butterfly_tables import DEPTHS as BUTTERFLY_DEPTHS
+from subdivision.plans.butterfly_tables import butterfly_tables
+from subdivision.plans.corner_blocks import Blocks, blocks
+from subdivision.plans.corner_numbers import Numbering
+from subdivision.plans.corner_steps import CornerStep, Wave
+from subdivision.plans.grids import Grids, grids
+from subdivision.plans.kernels import Kernel, Rows, Rule, assembled, kernel
+from subdivision.plans.later import Later, later
+from subdivision.plans.middle_steps import MiddleStep
+from subdivision.plans.middle_steps import Reach as MiddleReach
+from subdivision.plans.middle_tables import DEPTHS, MiddleTables, middle_tables
+from subdivision.plans.tables import Tables, tables
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
 from subdivision.stage import Step
-from subdivision.tables import Tables, tables
 from subdivision.topology import INFINITELY_SHARP, Topology
 
 DEEPEST = 5

@@ -18,9 +18,9 @@ import numpy as np
 
 from subdivision import refine_sqrt3
 from subdivision.arrays import Floats, Indices, taken
-from subdivision.kernels import by_count
-from subdivision.middle_steps import MiddleStep, Reach
-from subdivision.poles import VALENCES, Table, by_valence, poles, rows, shown
+from subdivision.plans.kernels import by_count
+from subdivision.plans.middle_steps import MiddleStep, Reach
+from subdivision.plans.poles import VALENCES, Table, by_valence, poles, rows, shown
 from subdivision.topology import Topology
 
 AT_ONCE = 512

@@ -12,7 +12,7 @@ from scipy.sparse import csr_array
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices
-from subdivision.kernels import Rows
+from subdivision.plans.kernels import Rows
 from subdivision.topology import Topology
 
 Table: TypeAlias = tuple[Indices, Floats]

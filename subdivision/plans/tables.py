@@ -15,13 +15,13 @@ from functools import cached_property
 
 import numpy as np
 
-from subdivision import poles
 from subdivision.arrays import Floats, Indices, Mask, short, taken
-from subdivision.kernels import Rule, kernel
-from subdivision.mirrors import seen_mirrored
-from subdivision.rings import Kind, unfolded, with_ring
-from subdivision.sorted_faces import Sorted, sorted_faces
-from subdivision.templates import blocks, descendants, template
+from subdivision.plans import poles
+from subdivision.plans.kernels import Rule, kernel
+from subdivision.plans.mirrors import seen_mirrored
+from subdivision.plans.rings import Kind, unfolded, with_ring
+from subdivision.plans.sorted_faces import Sorted, sorted_faces
+from subdivision.plans.templates import blocks, descendants, template
 from subdivision.topology import Topology
 
 AT_ONCE = 2048

@@ -21,7 +21,7 @@ import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, constant, short, taken, turned
-from subdivision.grid_steps import First, Later
+from subdivision.plans.grid_steps import First, Later
 from subdivision.topology import Topology
 
 LARGEST_FAN = 64

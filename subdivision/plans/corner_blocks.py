@@ -15,8 +15,8 @@ from functools import cached_property, lru_cache, partial
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, constant, short, taken
-from subdivision.corner_numbers import Corners, Numbering, digit, vertex_cycles
-from subdivision.corner_steps import Wave, weights
+from subdivision.plans.corner_numbers import Corners, Numbering, digit, vertex_cycles
+from subdivision.plans.corner_steps import Wave, weights
 from subdivision.topology import Topology
 
 AT_ONCE = 2048

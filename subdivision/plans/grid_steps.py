@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import _sparsetools, csr_array
 
 from subdivision.arrays import Floats, Indices, Small, taken
-from subdivision.kernels import Rows
+from subdivision.plans.kernels import Rows
 
 AT_ONCE = 12_000
 """How many points are gathered at a time: they then stay in the cache."""

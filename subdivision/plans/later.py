@@ -16,8 +16,8 @@ from scipy.sparse import _sparsetools
 
 from subdivision import refine
 from subdivision.arrays import Floats, Indices, Small, taken
-from subdivision.kernels import Rule
-from subdivision.sharp_rows import SharpRows, sharp_rows
+from subdivision.plans.kernels import Rule
+from subdivision.plans.sharp_rows import SharpRows, sharp_rows
 from subdivision.topology import Topology
 
 AT_ONCE = 8192

@@ -17,8 +17,8 @@ from subdivision import refine
 from subdivision.arrays import Floats, Indices, Small, taken, turned
 from subdivision.exact import Exact
 from subdivision.four_points import rim_points
-from subdivision.kernels import Rows
 from subdivision.operators import Operator
+from subdivision.plans.kernels import Rows
 from subdivision.topology import Topology
 
 Beside = Callable[[int, int], Exact | int]

@@ -11,8 +11,8 @@ import numpy as np
 
 from subdivision import refine
 from subdivision.arrays import Floats, Small, taken, turned
-from subdivision.butterfly_steps import ButterflyStep, add, ahead_of, others
-from subdivision.kernels import Rows
+from subdivision.plans.butterfly_steps import ButterflyStep, add, ahead_of, others
+from subdivision.plans.kernels import Rows
 from subdivision.topology import Topology
 
 AT_ONCE = 2048

@@ -9,11 +9,11 @@ extraordinary, and from there on no other vertex is near enough to matter.
 import numpy as np
 
 from subdivision.arrays import Indices, taken
-from subdivision.butterfly_later import butterfly_after
-from subdivision.butterfly_steps import Beside, butterfly_step
-from subdivision.poles import VALENCES, Table, by_valence, poles, rows, shown
-from subdivision.tables import Tables, laid_out
-from subdivision.templates import descendants, template
+from subdivision.plans.butterfly_later import butterfly_after
+from subdivision.plans.butterfly_steps import Beside, butterfly_step
+from subdivision.plans.poles import VALENCES, Table, by_valence, poles, rows, shown
+from subdivision.plans.tables import Tables, laid_out
+from subdivision.plans.templates import descendants, template
 from subdivision.topology import Topology
 
 DEPTHS = range(3, 5)

@@ -14,7 +14,7 @@ from scipy.sparse import _sparsetools, csr_array, diags_array, vstack
 from subdivision import refine_sqrt3
 from subdivision.arrays import Floats, Small
 from subdivision.exact import Exact
-from subdivision.kernels import Rows, by_count
+from subdivision.plans.kernels import Rows, by_count
 from subdivision.topology import Topology
 
 Reach = Callable[[int], Exact | int]

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from subdivision.arrays import Floats, Indices, Mask, distinct, taken
-from subdivision.rings import Fan, Kind, Shape, Ways, ring
-from subdivision.sharp_rows import creases
+from subdivision.plans.rings import Fan, Kind, Shape, Ways, ring
+from subdivision.plans.sharp_rows import creases
 from subdivision.topology import Topology
 
 LARGEST_FAN = 32

@@ -5,8 +5,8 @@ from functools import lru_cache
 import numpy as np
 
 from subdivision.arrays import Floats, Indices
-from subdivision.rings import Kind, Shape, ring
-from subdivision.templates import template
+from subdivision.plans.rings import Kind, Shape, ring
+from subdivision.plans.templates import template
 
 
 def seen_mirrored(table: Floats, kind: Kind, depth: int) -> Floats:

@@ -11,9 +11,9 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from subdivision.arrays import Floats, taken
-from subdivision.corner_numbers import Numbering
 from subdivision.exact import Exact
-from subdivision.kernels import Rows
+from subdivision.plans.corner_numbers import Numbering
+from subdivision.plans.kernels import Rows
 from subdivision.topology import Topology
 
 Wave = Callable[[int, int], Exact | int]
