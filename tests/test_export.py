@@ -397,6 +397,15 @@ def test_the_command_says_what_is_wrong(capsys, arguments, says):
     assert len(err.splitlines()) == 1
 
 
+@pytest.fixture
+def interruptible():
+    """Who runs in the background ignores Ctrl+C, and so does who is started by it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGINT])
 def test_a_command_that_is_ended_leaves_nothing_half_written_and_says_nothing(tmp_path, end):
     command = [sys.executable, "-m", "app", "export", "14", "-o", str(tmp_path / "a.gif"), "--size", "640x360"]
