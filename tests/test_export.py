@@ -408,7 +408,7 @@ def interruptible():
 @pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGINT])
 def test_a_command_that_is_ended_leaves_nothing_half_written_and_says_nothing(tmp_path, end):
-    command = [sys.executable, "-m", "app", "export", "14", "-o", str(tmp_path / "a.gif"), "--size", "640x360"]
+    command = [sys.executable, "-m", "app", "export", "14", "-o", str(tmp_path / "pictures"), "--format", "png"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         while not left_in(tmp_path) and process.poll() is None:
             time.sleep(0.05)
