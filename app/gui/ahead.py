@@ -50,6 +50,7 @@ class Ahead(QObject):
         self._session = session
         self._pieces = pieces(lambda: session.state, viewport)
         self._job: _Job | None = None
+        self._is_ready = False
         self._quiet = QTimer(self, singleShot=True)
         self._quiet.timeout.connect(self._go_on)
 
@@ -77,8 +78,9 @@ class Ahead(QObject):
             self._job = _Job(piece)
             self._job.told.over.connect(self._is_over)
             QThreadPool.globalInstance().start(self._job)
-        else:
-            gc.freeze()  # lessons stay told
+        elif not self._is_ready:
+            self._is_ready = True
+            gc.freeze()  # lessons stay told; once, for what is frozen is never given back
 
     def _is_over(self) -> None:
         self._job = None
