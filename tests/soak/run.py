@@ -203,8 +203,9 @@ class Run:
         return is_busy
 
     def _has_focus(self) -> bool:
-        """Whether keys go anywhere; where no window manager gives the focus back, the window asks for it."""
-        if QApplication.activeWindow() or QApplication.activePopupWidget():
+        """Whether keys go to the window; where no window manager gives the focus back, it asks for it."""
+        others = QApplication.activeModalWidget(), QApplication.activePopupWidget()
+        if QApplication.activeWindow() is self.window or any(others):
             return True
         self.window.activateWindow()
         return False
