@@ -12,12 +12,12 @@ from typing import TypeAlias
 
 import matplotlib
 import numpy as np
-from matplotlib.font_manager import FontProperties, get_font
-from matplotlib.ft2font import GlyphIndexType, LoadFlags
+from matplotlib.font_manager import FontProperties
+from matplotlib.ft2font import GlyphIndexType
 from matplotlib.textpath import TextToPath
 
 from app import ASSETS
-from app.draw.letters import Glyph
+from app.draw.letters import Glyph, beforehand, outlined, together
 from subdivision.arrays import Floats, Indices
 
 TABLE = ASSETS / "formulas.tsv"
@@ -48,25 +48,22 @@ def formula(text: str) -> Outlined:
     """A formula in type of size 1."""
     box: Box = json.loads(prepared()[text]) if text in prepared() else boxed(text)
     width, height, descent, glyphs, bars = box
-    vertices: list[Floats] = [np.zeros((0, 2))]
-    codes: list[Indices] = [np.zeros(0, dtype=np.uint8)]
+    found: list[Glyph] = []
     for typeface, size, number, x, y in glyphs:
         v, c = _glyph(typeface, number)
-        vertices.append(v * (size / UNIT) + np.array([x, y]))
-        codes.append(c)
+        found.append((v * (size / UNIT) + np.array([x, y]), c))
     for x, y, wide, tall in bars:
-        vertices.append(np.array([(x, y), (x, y + tall), (x + wide, y + tall), (x + wide, y), (x, y), (0, 0)]))
-        codes.append(BAR)
+        corners = (x, y), (x, y + tall), (x + wide, y + tall), (x + wide, y), (x, y), (0, 0)
+        found.append((np.array(corners), BAR))
+    vertices, codes = together(found)
     scale = UNIT / MATHEMATICS_SIZE
-    return width / scale, (height - descent) / scale, descent / scale, np.vstack(vertices) / scale, np.hstack(codes)
+    return width / scale, (height - descent) / scale, descent / scale, vertices / scale, codes
 
 
 @cache
 def prepared() -> dict[str, str]:
     """The boxes that were set beforehand, as JSON; none where mathtext is of another version."""
-    head, *rows = TABLE.read_text(encoding="utf-8").splitlines() if TABLE.exists() else [""]
-    is_alike = head == f"matplotlib {matplotlib.__version__}"
-    return dict(row.split("\t") for row in rows) if is_alike else {}
+    return dict(beforehand(TABLE))
 
 
 def boxed(text: str) -> Box:
@@ -96,9 +93,4 @@ def _typeface(file: Path) -> str:
 @cache
 def _glyph(typeface: str, number: GlyphIndexType) -> Glyph:
     """The outline of a glyph of the size at which everything is set."""
-    font = get_font(str(_typefaces() / typeface))
-    font.clear()
-    font.set_size(UNIT, TextToPath.DPI)
-    font.load_glyph(number, flags=LoadFlags.NO_HINTING)
-    vertices, codes = font.get_path()
-    return vertices, codes
+    return outlined(str(_typefaces() / typeface), number)

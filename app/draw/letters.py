@@ -7,10 +7,11 @@ beforehand, in a table that ``make type`` makes; it serves the version of matplo
 
 import re
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from itertools import pairwise
 from operator import add
+from pathlib import Path
 from typing import TypeAlias
 
 import matplotlib
@@ -55,6 +56,29 @@ Known: TypeAlias = dict[str, Letter]
 _glyphs: OrderedDict[str, Glyph] = OrderedDict()
 
 
+def beforehand(table: Path) -> list[list[str]]:
+    """The rows of a table of what was set beforehand; none where matplotlib is of another version."""
+    head, *rows = table.read_text(encoding="utf-8").split("\n") if table.exists() else [""]
+    is_alike = head == f"matplotlib {matplotlib.__version__}"
+    return [row.split("\t") for row in rows if row] if is_alike else []
+
+
+def together(glyphs: Iterable[Glyph]) -> Glyph:
+    """One outline of several."""
+    none: Glyph = np.zeros((0, 2)), np.zeros(0, dtype=np.uint8)
+    vertices, codes = zip(none, *glyphs, strict=True)
+    return np.vstack(vertices), np.concatenate(codes)
+
+
+def outlined(file: str, number: GlyphIndexType) -> Glyph:
+    """The outline of a glyph of a typeface, of the size at which everything is set."""
+    font = get_font(file)
+    font.clear()
+    font.set_size(TextToPath.FONT_SCALE, TextToPath.DPI)
+    font.load_glyph(number, flags=LoadFlags.NO_HINTING)
+    return font.get_path()
+
+
 def advance(text: str, bold: bool) -> float:
     """The width of a line of type of size 1."""
     return sum(step for step, _, _ in letters(text, bold)) / TextToPath.FONT_SCALE
@@ -62,15 +86,14 @@ def advance(text: str, bold: bool) -> float:
 
 def shape(text: str, bold: bool) -> Glyph:
     """The outline of a line of type of size 1: vertices (n, 2), y upwards from the baseline, and matplotlib's codes."""
-    vertices: list[Floats] = [np.zeros((0, 2))]
-    codes: list[Indices] = [np.zeros(0, dtype=np.uint8)]
+    found: list[Glyph] = []
     at = 0.0
     for step, above, name in letters(text, bold):
-        v, c = _glyph(name)
-        vertices.append(v + np.array([at, above]))
-        codes.append(c)
+        vertices, codes = _glyph(name)
+        found.append((vertices + np.array([at, above]), codes))
         at += step
-    return np.vstack(vertices) / TextToPath.FONT_SCALE, np.concatenate(codes)
+    vertices, codes = together(found)
+    return vertices / TextToPath.FONT_SCALE, codes
 
 
 def letters(text: str, bold: bool) -> list[Letter]:
@@ -85,11 +108,9 @@ def letters(text: str, bold: bool) -> list[Letter]:
 @cache
 def asked() -> tuple[Known, Known]:
     """What is known of the regular typeface and of the bold one: what was asked beforehand, and since."""
-    head, *rows = TABLE.read_text(encoding="utf-8").split("\n") if TABLE.exists() else [""]
     found: tuple[Known, Known] = {}, {}
-    if head == f"matplotlib {matplotlib.__version__}":
-        for bold, key, step, above, name in (row.split("\t") for row in rows if row):
-            found[bold == "bold"][key] = float(step), float(above), name
+    for bold, key, step, above, name in beforehand(TABLE):
+        found[bold == "bold"][key] = float(step), float(above), name
     return found
 
 
@@ -151,10 +172,7 @@ def _glyph(name: str) -> Glyph:
     if name not in _glyphs:
         typeface, _, number = name.rpartition("-")
         files = {REGULAR.stem: str(REGULAR), BOLD.stem: str(BOLD)}
-        font = get_font(files.get(typeface, _files(False)[1]))
-        font.set_size(TextToPath.FONT_SCALE, TextToPath.DPI)
-        font.load_glyph(GlyphIndexType(int(number, 16)), flags=LoadFlags.NO_HINTING)
-        _glyphs[name] = font.get_path()
+        _glyphs[name] = outlined(files.get(typeface, _files(False)[1]), GlyphIndexType(int(number, 16)))
     return _glyphs[name]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.path import Path as Outline
 
 from app.draw.formulas import formula
-from app.draw.letters import Glyph, advance, shape
+from app.draw.letters import Glyph, advance, shape, together
 from subdivision.arrays import Floats, Indices
 
 FAMILY = "Inter"
@@ -124,13 +124,11 @@ def _set(text: str, bold: bool) -> tuple[float, float, float, tuple[Run, ...]]:
 @lru_cache(maxsize=2048)
 def _outlined(text: str, bold: bool) -> Glyph:
     """The outline of a line of type of size 1."""
-    vertices: list[Floats] = [np.zeros((0, 2))]
-    codes: list[Indices] = [np.zeros(0, dtype=np.uint8)]
+    found: list[Glyph] = []
     for run in _set(text, bold)[3]:
-        v, c = formula(run.text)[3:] if run.is_math else shape(run.text, bold)
-        vertices.append(v + np.array([run.x, 0.0]))
-        codes.append(c)
-    return np.vstack(vertices), np.concatenate(codes)
+        vertices, codes = formula(run.text)[3:] if run.is_math else shape(run.text, bold)
+        found.append((vertices + np.array([run.x, 0.0]), codes))
+    return together(found)
 
 
 def path(text: str, size: float, bold: bool = False) -> Outline:

@@ -50,7 +50,6 @@ class Ahead(QObject):
         self._session = session
         self._pieces = pieces(lambda: session.state, viewport)
         self._job: _Job | None = None
-        self._is_ready = False
         self._quiet = QTimer(self, singleShot=True)
         self._quiet.timeout.connect(self._go_on)
 
@@ -78,9 +77,6 @@ class Ahead(QObject):
             self._job = _Job(piece)
             self._job.told.over.connect(self._is_over)
             QThreadPool.globalInstance().start(self._job)
-        elif not self._is_ready:
-            self._is_ready = True
-            gc.freeze()  # lessons stay told; once, for what is frozen is never given back
 
     def _is_over(self) -> None:
         self._job = None
@@ -114,6 +110,7 @@ def pieces(state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:
         yield partial(room, open_lesson(state(), lesson), viewport.width(), viewport.window().height())
     for lesson in others:
         yield from played(lesson, state, viewport)
+    yield gc.freeze  # lessons stay told
 
 
 def played(lesson: Lesson, state: Callable[[], State], viewport: Viewport) -> Iterator[Piece]:

@@ -60,9 +60,8 @@ def glyphs(text: str, bold: bool = False) -> QPainterPath:
     if len(elements):
         ends = np.array([0, Qt.FillRule.WindingFill.value], dtype=">i4").tobytes()
         told = np.array(len(elements), dtype=">i4").tobytes() + elements.tobytes() + ends
-        (
-            QDataStream(QByteArray(told)) >> path
-        )  # as Qt keeps paths: a hundred times quicker than a call for each of its points
+        # as Qt keeps paths, which is a hundred times quicker than a call for each of its points
+        QDataStream(QByteArray(told)) >> path
     path.setFillRule(Qt.FillRule.WindingFill)
     return path
 

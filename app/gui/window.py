@@ -481,6 +481,10 @@ class Window(QMainWindow):
         with self._guard.away():
             self._furnish()
 
+    def _heirs(self) -> tuple[Any, ...]:
+        """The furniture that takes over from the furniture before."""
+        return self.contents, self.details, self.laboratory, self.editing, self.spectrum
+
     def _furnish(self) -> None:
         options = self.session.state.options
         if options.scale != self._scale:
@@ -492,7 +496,7 @@ class Window(QMainWindow):
         seat = seat_of(places, QApplication.focusWidget())
         if seat is not None:
             enter_what_is_typed()
-        before = self.contents, self.details, self.laboratory, self.editing, self.spectrum
+        before = self._heirs()
         is_bare = self.timeline.isHidden(), self.menuBar().isHidden()
         throw_away(self._put_up())
         for lasting in (self.banner, self.presenter, self.viewport.narration):
@@ -500,9 +504,8 @@ class Window(QMainWindow):
         for part, is_hidden in zip((self.timeline, self.menuBar()), is_bare, strict=True):
             part.setHidden(is_hidden)
         self.show_state(self.session.state)
-        after = self.contents, self.details, self.laboratory, self.editing, self.spectrum
-        for part, old in zip(after, before, strict=True):
-            part.inherit(old)  # type: ignore[attr-defined]
+        for part, old in zip(self._heirs(), before, strict=True):
+            part.inherit(old)
         for sheet in self.sheets:
             sheet.update()
         self._make_room()
