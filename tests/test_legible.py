@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import lessons
+from app.draw import labels
 from app.draw.compose import compose
 from app.draw.layout import extent, fitted, overlay, pane_areas
-from app.draw.picture import Scene
+from app.draw.picture import Label, Scene
 from app.draw.primitives import Text
 from app.state import Options, at_stop, start, stops
 
@@ -50,3 +51,22 @@ def test_no_label_hides_a_point(lesson):
 
 def _least_height(boxes):
     return np.minimum(boxes[:, None, 3], boxes[None, :, 3])[..., None]
+
+
+@pytest.mark.parametrize("crowd", [0, 3, 40])
+def test_no_place_for_a_label_is_better_than_its_own(crowd):
+    rng, area = np.random.default_rng(crowd), (10.0, 20.0, 600.0, 400.0)
+    for _ in range(50):
+        at = tuple(rng.uniform((10, 20), (610, 420)))
+        discs, strokes = rng.uniform(0, 600, (3 * crowd, 3)) * (1, 1, 0.05), rng.uniform(0, 600, (30 * crowd, 2))
+        taken = np.hstack([rng.uniform(0, 600, (crowd, 2)), rng.uniform(10, 200, (crowd, 2))])
+        label = Label(np.zeros(3), "12/64", (0.0, 0.0, 0.0), away=tuple(rng.choice((0.0, 14.0, -14.0), 2)))
+        box, off = labels._best(label, at, 20.0, 5.0, area, discs, strokes, taken)
+        costs = []
+        for places in labels._rounds(label.away):
+            each, _ = places.boxes(at, box[2], box[3], 5.0)
+            over = np.minimum(labels._inside(each, strokes), labels.MOST_OVER)
+            hard = labels._outside(each, area) + 4 * labels._overlaps(each, taken) + labels._covered(each, discs)
+            cost = places.price + labels.OVER * over + 1e3 * hard
+            costs += zip(cost, each[:, 0], each[:, 1], places.ring, strict=True)
+        assert min(costs)[1:] == (box[0], box[1], off)

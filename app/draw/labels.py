@@ -25,11 +25,14 @@ DIRECTIONS = np.array([
 RINGS = np.concatenate([np.arange(12) * 0.5, 6 + np.arange(14) * 2.0])
 """How much further off each round of places is, in heights of the label."""
 
-ROUNDS = np.split(RINGS, [2, 4, 6, 8, 10, 12, 14, 17, 20])
+ROUNDS = np.split(RINGS, [2, 8, 14])
 """Near places are tried first, for mostly one of them is free."""
 
 NEARER = 3.0
 """What it costs to be further off, for each height of the label."""
+
+OVER, MOST_OVER = 0.35, 8
+"""What it costs to lie over a place of a stroke, and how many of them count."""
 
 LEADER = 0.9
 """A label further off than this many of its heights needs a line to its point."""
@@ -79,14 +82,17 @@ def placed(
     ]
     there.sort(key=lambda one: -one[1].size)
     if area in kept.growth and all(name in kept.beside for name, _, _ in there):
-        found = _along(there, height, _grown(picture, kept.growth[area]), kept)
+        found: list[Primitive] | None = _along(there, height, _grown(picture, kept.growth[area]), kept)
     else:
         for growth in dict.fromkeys((picture.growth, picture.growth**0.5, 1.0)):
             kept.growth[area] = growth
-            found, is_clear = _placed(there, scene, camera, area, height, _grown(picture, growth), kept)
-            if is_clear:
+            is_last = growth == 1.0
+            found = _placed(
+                there, scene, camera, area, height, _grown(picture, growth), kept, must_be_clear=not is_last
+            )
+            if found is not None:
                 break
-    return sorted(found, key=lambda one: isinstance(one, Text))
+    return sorted(found or (), key=lambda one: isinstance(one, Text))
 
 
 def _grown(picture: Picture, growth: float) -> Picture:
@@ -107,44 +113,67 @@ def _along(there: list[Named], height: float, picture: Picture, kept: Kept) -> l
 
 
 def _placed(
-    there: list[Named], scene: Scene, camera: Camera, area: Area, height: float, picture: Picture, kept: Kept
-) -> tuple[list[Primitive], bool]:
-    """The labels at the size of the picture's type, and whether none lies over another."""
+    there: list[Named],
+    scene: Scene,
+    camera: Camera,
+    area: Area,
+    height: float,
+    picture: Picture,
+    kept: Kept,
+    *,
+    must_be_clear: bool,
+) -> list[Primitive] | None:
+    """The labels at the size of the picture's type; None: one lies over another, though none may."""
     unit = height / 1000
     discs, strokes = _discs(scene, camera, area), _samples(scene, camera, area)
     discs = np.vstack([discs, pins.discs(scene, camera, area, picture, height)])
-    taken, is_clear = np.zeros((0, 4)), True
+    around = _around(np.array([at for *_, at in there]).reshape(-1, 2), discs)
+    taken = np.zeros((len(there), 4))
     found: list[Primitive] = []
-    for name, label, (x, y) in there:
+    for k, ((name, label, (x, y)), clear) in enumerate(zip(there, around, strict=True)):
         size = max(label.size * picture.scale, LEAST) * unit
-        box, off = _best(label, (x, y), size, unit, area, discs, strokes, taken)
+        box, off = _best(label, (x, y), size, clear + _apart(label) * unit, area, discs, strokes, taken[:k])
+        if must_be_clear and _overlaps(box[None], taken[:k]).any():
+            return None
         kept.beside[name] = (float(box[0]) - x, float(box[1]) - y), off
-        is_clear = is_clear and not _overlaps(box[None], taken).any()
-        taken = np.vstack([taken, box + np.array([-0.25, 0, 0.5, 0]) * box[3]])  # words side by side read as two
+        taken[k] = box + np.array([-0.25, 0, 0.5, 0]) * box[3]  # words side by side read as two
         found.extend(_drawn(label, (x, y), size, box, off, picture, unit))
-    return found, is_clear
+    return found
+
+
+def _around(points: Floats, discs: Floats) -> list[float]:
+    """For each point the radius of the largest marker it is in; 0: it is in none."""
+    far = np.hypot(points[:, None, 0] - discs[:, 0], points[:, None, 1] - discs[:, 1])
+    radii: list[float] = np.where(far < discs[:, 2], discs[:, 2], 0.0).max(axis=1, initial=0.0).tolist()
+    return radii
+
+
+def _apart(label: Label) -> float:
+    """How far a label would like to be from its point, in logical points."""
+    return 0.5 * max(map(abs, label.away))
 
 
 def _best(
-    label: Label, at: Point, size: float, unit: float, area: Area, discs: Floats, strokes: Floats, taken: Floats
+    label: Label, at: Point, size: float, clear: float, area: Area, discs: Floats, strokes: Floats, taken: Floats
 ) -> tuple[Floats, float]:
     """The box (left, top, width, height) of the nearest place that is free, and how far off it is in heights."""
     wide, up, down = measure(label.text, size)
     tall = up + down
-    here = discs[np.hypot(discs[:, 0] - at[0], discs[:, 1] - at[1]) < discs[:, 2]]
-    clear = here[:, 2].max(initial=0.0) + 0.5 * max(*np.abs(label.away)) * unit
     least, found = np.inf, (np.zeros(4), 0.0)
     for places in _rounds(label.away):
         if least <= NEARER * places.ring[0]:
             break  # whatever is further off costs more
         boxes, room = places.boxes(at, wide, tall, clear)
         marked = discs[(np.abs(discs[:, :2] - at) <= room + discs[:, 2:]).all(axis=1)]
-        stroked = strokes[(np.abs(strokes - at) <= room).all(axis=1)]
-        cost = places.price + 0.35 * np.minimum(_inside(boxes, stroked), 8)
-        cost += 1e3 * (_outside(boxes, area) + 4 * _overlaps(boxes, taken) + _covered(boxes, marked))
+        hard = 1e3 * (_outside(boxes, area) + 4 * _overlaps(boxes, taken) + _covered(boxes, marked))
+        without = places.price + hard
+        likely = np.flatnonzero(without <= min(without.min() + OVER * MOST_OVER, least))  # no other can be the best
+        if not len(likely):
+            continue
+        cost = places.price[likely] + OVER * np.minimum(_inside(boxes[likely], strokes), MOST_OVER) + hard[likely]
         best = int(np.argmin(cost))
         if cost[best] < least:
-            least, found = float(cost[best]), (boxes[best], float(places.ring[best]))
+            least, found = float(cost[best]), (boxes[likely[best]], float(places.ring[likely[best]]))
     return found
 
 
@@ -229,20 +258,25 @@ def _outside(boxes: Floats, area: Area) -> Floats:
 
 def _overlaps(boxes: Floats, taken: Floats) -> Floats:
     """(n,): how many of the taken boxes each box overlaps."""
-    a, b = boxes[:, None], taken[None]
-    apart = (a[..., :2] >= b[..., :2] + b[..., 2:]) | (b[..., :2] >= a[..., :2] + a[..., 2:])
-    return np.asarray((~apart.any(axis=2)).sum(axis=1), dtype=float)
+    far = boxes[:, :2] + boxes[:, 2:]
+    end = taken[:, :2] + taken[:, 2:]
+    meet = np.ones((len(boxes), len(taken)), dtype=bool)
+    for k in (0, 1):
+        meet &= (boxes[:, k, None] < end[:, k]) & (taken[:, k] < far[:, k, None])
+    return np.asarray(meet.sum(axis=1), dtype=float)
 
 
 def _covered(boxes: Floats, discs: Floats) -> Floats:
     """(n,): how many markers each box covers, at least in part."""
-    near = np.clip(discs[None, :, :2], boxes[:, None, :2], boxes[:, None, :2] + boxes[:, None, 2:])
-    far = np.linalg.norm(near - discs[None, :, :2], axis=2)
-    return np.asarray((far < discs[None, :, 2]).sum(axis=1), dtype=float)
+    far = boxes[:, :2] + boxes[:, 2:]
+    x, y = (np.clip(discs[:, k], boxes[:, k, None], far[:, k, None]) - discs[:, k] for k in (0, 1))
+    return np.asarray((x * x + y * y < discs[:, 2] ** 2).sum(axis=1), dtype=float)
 
 
 def _inside(boxes: Floats, points: Floats) -> Floats:
     """(n,): how many of the points lie in each box."""
+    if not len(points):
+        return np.zeros(len(boxes))
     x, y, wide, tall = (boxes[:, k, None] for k in range(4))
     across, down = points[:, 0] - x, points[:, 1] - y
     return np.asarray(((across >= 0) & (across <= wide) & (down >= 0) & (down <= tall)).sum(axis=1), dtype=float)
