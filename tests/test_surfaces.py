@@ -17,7 +17,7 @@ from app.draw.raster import image
 from app.draw.solid import CUBE
 from app.draw.surface import BRISK, SHOWS
 from app.draw.theme import THEMES
-from app.state import Options, at_stop, forward, settle, start, stops, tick
+from app.state import Options, at_stop, choose, forward, settle, start, stops, tick
 from lessons.script import Lesson
 from subdivision import Role, Trace, continuity
 
@@ -29,6 +29,12 @@ STAGES = ["12", "13", "22", "23"]
 def last(number: str, **options: bool) -> Picture:
     lesson = lessons.find(number)
     return compose(at_stop(start(lesson, Options(**options)), stops(lesson)[-1]))
+
+
+def parts(picture: Picture) -> list[int]:
+    """How many elements each part of each scene has."""
+    groups = (group for scene in picture.scenes for group in (scene.faces, scene.lines, scene.markers, scene.labels))
+    return [size for group in groups for size in (len(group), *(len(getattr(each, "points", "")) for each in group))]
 
 
 def level_of(told: Trace, at: float) -> int:
@@ -134,7 +140,7 @@ def test_the_two_surfaces_of_figure_10_cost_the_same_and_differ_by_one_in_contin
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_whatever_is_switched_on_together_anywhere_in_a_lesson_makes_a_picture(seed):
+def test_whatever_is_switched_on_together_anywhere_in_a_lesson_makes_a_picture_alike_in_every_theme(seed):
     rng = Random(seed)
     switches = [each.name for each in fields(Options) if isinstance(each.default, bool)]
     for _ in range(100):
@@ -144,4 +150,6 @@ def test_whatever_is_switched_on_together_anywhere_in_a_lesson_makes_a_picture(s
             state = settle(forward(state))
         moving = tick(forward(state), rng.random())
         for each in (state, moving):
-            assert compose(each).panes, (state.lesson.id, state.beat, state.at, state.options)
+            light, dark = (compose(choose(each, theme=theme)) for theme in ("light", "dark"))
+            assert light.panes, (state.lesson.id, state.beat, state.at, state.options)
+            assert parts(light) == parts(dark), (state.lesson.id, state.beat, state.at, state.options)

@@ -42,14 +42,17 @@ def ends(values: Floats, is_signed: bool) -> tuple[float, float, bool]:
     return -most, most, furthest > 1.0001 * most
 
 
-def coloured(values: Floats, scale: tuple[float, float], theme: Theme, is_signed: bool) -> Floats:
-    """(n, 3): the colour of every value; where there is none, that of the bare surface."""
+def places(values: Floats, scale: tuple[float, float]) -> Floats:
+    """(n,): where values are on their scale, 0..1; NaN where there is none."""
     low, high = scale
-    there = np.isfinite(values)
-    t = np.clip((np.where(there, values, low) - low) / (high - low), 0.0, 1.0)
-    places, colours = np.linspace(0, 1, STEPS), ramp(theme, is_signed)
-    found = np.stack([np.interp(t, places, colours[:, k]) for k in range(3)], axis=1)
-    return np.where(there[:, None], found, theme.surface)
+    return np.asarray(np.clip((np.where(np.isfinite(values), values, np.nan) - low) / (high - low), 0.0, 1.0))
+
+
+def coloured(places: Floats, theme: Theme, is_signed: bool) -> Floats:
+    """(n, 3): the colour of every place on a scale; where there is none, that of the bare surface."""
+    colours = ramp(theme, is_signed)
+    found = np.stack([np.interp(places, np.linspace(0, 1, STEPS), column) for column in colours.T], axis=1)
+    return np.where(np.isfinite(places)[:, None], found, theme.surface)
 
 
 def bar(title: str, scale: tuple[float, float], is_beyond: bool, theme: Theme, is_signed: bool) -> Bar:

@@ -3,15 +3,17 @@
 Values at vertices become colours on one scale for all panes, so that they can be compared.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import ceil
+from typing import TypeAlias
 
 import numpy as np
 
 from app.draw import basis, limits, motion, ramps
 from app.draw.isophotes import isophotes, reflections
-from app.draw.picture import Colour, Diagram, Faces, Lines, Markers, Scene
+from app.draw.picture import Colour, Diagram, Lines, Markers, Scene
 from app.draw.theme import Theme
 from app.state import State
 from lessons.script import Look, View
@@ -47,6 +49,12 @@ SMALL = 0.45
 
 QUILL, QUILLS = 0.9, 1500
 """Length of a normal, relative to the typical edge; more than so many vertices have only some of theirs shown."""
+
+TONES = 64
+"""A curve and its points wear so many colours at most."""
+
+Wear: TypeAlias = Callable[[Floats], Floats]
+"""The colours (n, 3) of places on a scale."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,59 +195,57 @@ def painted(
     is_signed = any(each.is_signed for each in there)
     low, high, is_beyond = ramps.ends(np.concatenate([each.at for each in there]), is_signed)
     bar = ramps.bar(there[0].title, (low, high), is_beyond, theme, is_signed)
+    wear = partial(ramps.coloured, theme=theme, is_signed=is_signed)
     last = max(k for k, each in enumerate(values) if each is not None)
     found = list(contents)
     for k, (scene, each) in enumerate(zip(contents, values, strict=True)):
         if each is not None and isinstance(scene, Scene):
-            colours = ramps.coloured(each.at, (low, high), theme, is_signed)
-            found[k] = replace(_coloured(scene, colours, each.n_vertices), bar=bar if k == last else None)
+            at = ramps.places(each.at, (low, high))
+            found[k] = replace(_coloured(scene, at, wear, each.n_vertices), bar=bar if k == last else None)
     return found
 
 
-def _coloured(scene: Scene, colours: Floats, n_vertices: int) -> Scene:
+def _coloured(scene: Scene, at: Floats, wear: Wear, n_vertices: int) -> Scene:
     """A surface by its vertices; where there is none, a curve by its strokes and its points."""
     if scene.faces:
-        faces = tuple(_worn(each, colours) for each in scene.faces)
+        colours = wear(at)
+        faces = tuple(replace(each, colours=colours[: len(each.points)]) for each in scene.faces)
         return replace(scene, faces=faces, markers=tuple(_shrunk(each) for each in scene.markers))
-    lines = [part for each in scene.lines for part in _binned(each, colours, is_curve=len(each.points) == n_vertices)]
-    markers = [part for each in scene.markers for part in _dotted(each, colours)]
+    lines = [part for each in scene.lines for part in _binned(each, at, wear, is_curve=len(each.points) == n_vertices)]
+    markers = [part for each in scene.markers for part in _dotted(each, at, wear)]
     return replace(scene, lines=tuple(lines), markers=tuple(markers))
 
 
-def _worn(faces: Faces, colours: Floats) -> Faces:
-    return replace(faces, colours=colours[: len(faces.points)])
-
-
-def _binned(lines: Lines, colours: Floats, *, is_curve: bool) -> list[Lines]:
+def _binned(lines: Lines, at: Floats, wear: Wear, *, is_curve: bool) -> list[Lines]:
     """The strokes of a curve in groups of one colour each."""
     if not is_curve or lines.dashed:
         return [lines]
-    mean = colours[lines.pairs].mean(axis=1)
-    return [replace(lines, pairs=lines.pairs[rows], colour=colour) for rows, colour in _groups(mean)]
+    groups = _groups(at[lines.pairs].mean(axis=1), wear)
+    return [replace(lines, pairs=lines.pairs[rows], colour=colour) for rows, colour in groups]
 
 
-def _dotted(markers: Markers, colours: Floats) -> list[Markers]:
+def _dotted(markers: Markers, at: Floats, wear: Wear) -> list[Markers]:
     """The points that are there now, and have values, in groups of one colour each."""
     if markers.stage >= 0 or not len(markers.ids) or (markers.ids < 0).any():
         return [markers]
     is_limit = markers.name == limits.LIMIT_POINT  # these are numbered as in the level, but stand in order
     places = np.arange(len(markers.ids)) if is_limit else markers.ids
-    if places.max() >= len(colours):  # centroids lie on no surface
+    if places.max() >= len(at):  # centroids lie on no surface
         return [markers]
     return [
         replace(markers, points=markers.points[rows], radius=markers.radius[rows], opacity=markers.opacity[rows],
                 ids=markers.ids[rows], colour=colour, name="")
-        for rows, colour in _groups(colours[places])
+        for rows, colour in _groups(at[places], wear)
     ]  # fmt: skip
 
 
-def _groups(colours: Floats) -> list[tuple[Indices, Colour]]:
-    """Rows of nearly one colour, and that colour."""
-    kinds, owner = np.unique(np.round(colours * 64), axis=0, return_inverse=True)
+def _groups(at: Floats, wear: Wear) -> list[tuple[Indices, Colour]]:
+    """Rows that are nearly at one place of the scale, the same ones in every theme, and their colour."""
+    kinds, owner = np.unique(np.nan_to_num(np.round(at * TONES), nan=-1.0), return_inverse=True)
     found = []
     for k in range(len(kinds)):
-        rows = np.flatnonzero(owner.ravel() == k)
-        r, g, b = colours[rows].mean(axis=0).tolist()
+        rows = np.flatnonzero(owner == k)
+        r, g, b = wear(at[rows].mean(keepdims=True))[0].tolist()
         found.append((rows, (r, g, b)))
     return found
 
