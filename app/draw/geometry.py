@@ -1,6 +1,8 @@
 """What painters share: polygons as shaded triangles, strokes as dashes."""
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from app.draw import regular
 from app.draw.picture import Faces, Lines
@@ -52,6 +54,34 @@ def any_facets(faces: Faces) -> Facets:
     triangles = np.vstack([fan[~(triangle | bad)[owner]], whole, *ears])
     shades = np.vstack([_shading(faces, normal), normal])
     return Facets(np.vstack([corners, middle]), shades, triangles, faces.corners, owner[triangles[:, 0]])
+
+
+def shells(faces: Faces) -> Indices | None:
+    """(n,): the connected part that each point is of; None where the surface has a rim or two sides.
+
+    It has neither where every edge is walked as often one way as the other.
+    """
+    walk, n = np.asarray(faces.corners, dtype=np.int64), len(faces.points)
+    start = np.cumsum(faces.sizes) - faces.sizes
+    follower = np.arange(1, len(walk) + 1)
+    follower[start + faces.sizes - 1] = start
+    along, back = n * walk + walk[follower], n * walk[follower] + walk
+    if not np.array_equal(np.sort(along), np.sort(back)):
+        return None
+    graph = coo_array((np.ones(len(walk)), (walk, walk[follower])), (n, n))
+    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
+
+
+def is_outward(cut: Facets, shell: Indices) -> bool:
+    """Whether every one of the ``shells`` has its front outside: all of them have a positive volume.
+
+    Source: the divergence theorem, for the field that grows along the last axis.
+    """
+    x, y, z = (column[cut.triangles] for column in cut.points.T)
+    area = (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])
+    part = shell[cut.vertices[cut.triangles[:, 0]]]
+    volume = np.bincount(part, area * z.sum(axis=1))
+    return bool((volume[np.unique(part)] > 0).all())
 
 
 def worn(faces: Faces, cut: Facets) -> Floats | None:

@@ -79,14 +79,14 @@ class Glyphs:
         if not markers and not self.faint.actor.GetVisibility():
             return
         which = [(m.opacity >= 0.999) == solid for m in markers]
-        points = [m.points[w] for m, w in zip(markers, which, strict=True)]
-        radius = [m.radius[w] for m, w in zip(markers, which, strict=True)]
-        colour = [vtk_arrays.rgba(m.colour, m.opacity[w]) for m, w in zip(markers, which, strict=True)]
-        n = sum(map(len, points))
-        self._largest = max((float(r.max()) for r in radius if len(r)), default=0.0)
+        n = sum(int(w.sum()) for w in which)
         for instances in (*self.drawn, self.faint):
             instances.actor.SetVisibility(n > 0)
         if n:
+            points = [m.points[w] for m, w in zip(markers, which, strict=True)]
+            radius = [m.radius[w] for m, w in zip(markers, which, strict=True)]
+            colour = [vtk_arrays.rgba(m.colour, m.opacity[w]) for m, w in zip(markers, which, strict=True)]
+            self._largest = max(float(r.max()) for r in radius if len(r))
             self._corners = resolution(n, is_hasty=is_hasty)
             self._model()
             self._fill(np.vstack(points), np.concatenate(radius), np.vstack(colour))

@@ -14,10 +14,10 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
 from app.draw import vtk_arrays
-from app.draw.geometry import dashes, facets, worn
+from app.draw.geometry import dashes, facets, is_outward, shells, worn
 from app.draw.glow import glow
 from app.draw.glyphs import Glyphs, finish
-from app.draw.picture import Camera, Colour, Faces, Lines, Scene, Shape
+from app.draw.picture import Camera, Colour, Faces, Lines, Scene, Shape, unit
 from app.draw.primitives import Area
 from app.draw.regular import Facets
 from app.draw.solid import (
@@ -29,6 +29,9 @@ from subdivision.arrays import Floats, Indices
 
 SAMPLES = 8
 """Multisampling of stills."""
+
+NEAR = 0.05
+"""A surface that begins so far from the camera, compared with where it ends, is in front of all that is cut off."""
 
 LIT = 2000
 """Points of a surface up to which light at its corners is sooner worked out here than by who draws it."""
@@ -66,8 +69,9 @@ class ScenePainter:
             surface.show(faces, is_hasty=scene.is_hasty)
         for lines, strokes in _pooled(scene.lines, self._lines, _Strokes, self.renderer):
             strokes.show(dashes(lines, dash_of(scene.camera)) if lines.dashed else lines, lines.width * point)
+        wanted = {shape: [m for m in scene.markers if m.shape is shape] for shape in {m.shape for m in scene.markers}}
         for (shape, solid), glyphs in self._markers.items():
-            glyphs.show([m for m in scene.markers if m.shape is shape], solid=solid, is_hasty=scene.is_hasty)
+            glyphs.show(wanted.get(shape, ()), solid=solid, is_hasty=scene.is_hasty)
 
     def look(self, camera: Camera, window: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> None:
         """Stand where ``camera`` stands.
@@ -120,8 +124,9 @@ class ScenePainter:
     def hasten(self, is_hasty: bool) -> None:
         """Draw quickly what moves.
 
-        Markers have fewer triangles, and light on small surfaces is worked out at corners only; what is translucent is
-        blended as it comes and not by weight, which takes as long as all the rest.
+        Markers have fewer triangles, light on small surfaces is worked out at corners only, and of closed ones the far
+        side is left out; what is translucent is blended as it comes and not by weight, which takes as long as all the
+        rest.
         """
         self._is_hasty = is_hasty
         for renderer in (self.renderer, self._over):
@@ -156,6 +161,9 @@ class _Surface:
         self.actor.SetMapper(self.mapper)
         self._shown: Facets | None = None
         self._cut: Indices | None = None
+        self._faces: Faces | None = None
+        self._known: Indices | None = None
+        self._shells: Indices | None = None
         self._colours: Floats | None = None
         self._camera: Camera | None = None
         self._is_hasty = False
@@ -171,6 +179,7 @@ class _Surface:
         if cut.triangles is not self._cut:
             self._cut = cut.triangles
             self.data.SetPolys(vtk_arrays.cells(cut.triangles))
+        self._faces = faces
         self._colours = worn(faces, cut)
         self.actor.GetProperty().SetColor(*faces.colour)
         self.actor.GetProperty().SetOpacity(faces.opacity)
@@ -178,7 +187,7 @@ class _Surface:
             self._dress()
 
     def hasten(self, is_hasty: bool) -> None:
-        """Work out the light at corners only."""
+        """Work out the light at corners only, and leave out sides that nobody can see."""
         if is_hasty != self._is_hasty:
             self._is_hasty = is_hasty
             self._dress()
@@ -195,11 +204,25 @@ class _Surface:
             plain = np.array(look.GetColor()) if colours is None else colours
             colours, is_lit = plain * glow(self._shown, self._camera)[:, None], False
         ambient, diffuse = SURFACE_LIGHT if is_lit else (0.0, 1.0)
+        look.SetBackfaceCulling(self._is_hasty and self._hides_its_back())
         look.SetLighting(is_lit)
         look.SetAmbient(ambient)
         look.SetDiffuse(diffuse)
         self.mapper.SetScalarVisibility(colours is not None)
         self.data.GetPointData().SetScalars(None if colours is None else vtk_arrays.colours(colours))
+
+    def _hides_its_back(self) -> bool:
+        """Whether it is a closed surface seen from outside, and nothing shines through."""
+        faces, cut, camera = self._faces, self._shown, self._camera
+        if faces is None or cut is None or camera is None or faces.opacity < 1:
+            return False
+        if faces.corners is not self._known:
+            self._known, self._shells = faces.corners, shells(faces)
+        if self._shells is None:
+            return False
+        depth = (cut.points - camera.position) @ unit(camera.focal - camera.position)
+        is_in_front = bool(camera.scale > 0 or depth.min() > NEAR * depth.max())
+        return is_in_front and is_outward(cut, self._shells)
 
 
 class _Strokes:
