@@ -1,12 +1,13 @@
 """What several lessons measure on screen, and how they leave helpers out."""
 
 from dataclasses import replace
+from functools import lru_cache
 from itertools import chain
 
 import numpy as np
 
 from lessons.script import Reading
-from subdivision import Mesh, Stage, Trace
+from subdivision import Mesh, Stage, Topology, Trace
 from subdivision.measure import angle_sum, counts, edges_apart, largest_distance, largest_gap
 from subdivision.words import phrase, plural
 
@@ -42,8 +43,13 @@ def isolation(mesh: Mesh) -> str:
 
 def nearest(mesh: Mesh) -> int:
     """The least number of edges between two extraordinary vertices."""
-    special = np.flatnonzero(mesh.surface.extraordinary)
-    ways = edges_apart(mesh.surface, special)
+    return _nearest(mesh.surface)
+
+
+@lru_cache(maxsize=16)
+def _nearest(surface: Topology) -> int:
+    special = np.flatnonzero(surface.extraordinary)
+    ways = edges_apart(surface, special)
     return int(ways[~np.eye(len(special), dtype=bool)].min())
 
 
