@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TypeAlias
 
-from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
+from PySide6.QtCore import QObject, QThreadPool, QTimer, Signal
 
 from app.draw.compose import compose
 from app.draw.layout import overlay
@@ -142,13 +142,11 @@ class _Told(QObject):
     over = Signal()
 
 
-class _Job(QRunnable):
+class _Job:
     def __init__(self, piece: Piece) -> None:
-        super().__init__()
-        self.setAutoDelete(False)
         self.piece, self.told = piece, _Told()
 
-    def run(self) -> None:
+    def __call__(self) -> None:
         try:
             self.piece()
         except Exception:  # what cannot be got ready tells why when it is opened

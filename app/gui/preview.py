@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields, replace
 
-from PySide6.QtCore import QObject, QRectF, QRunnable, QSize, Qt, QThreadPool, QTimer, Signal
+from PySide6.QtCore import QObject, QRectF, QSize, Qt, QThreadPool, QTimer, Signal
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
@@ -130,16 +130,14 @@ class _Told(QObject):
     over = Signal(object)
 
 
-class _Job(QRunnable):
+class _Job:
     """Draws one picture."""
 
     def __init__(self, state: State, size: QSize) -> None:
-        super().__init__()
-        self.setAutoDelete(False)
         self.told = _Told()
         self._state, self._size = state, size
 
-    def run(self) -> None:
+    def __call__(self) -> None:
         made = Drawn(self._state, self._size)
         try:
             made = drawn(self._state, self._size)

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from PySide6.QtCore import QObject, QRunnable, QThreadPool, QTimer, Signal
+from PySide6.QtCore import QObject, QThreadPool, QTimer, Signal
 
 from app.gui.banner import Banner
 from app.gui.saving import SavingError
@@ -88,7 +88,7 @@ class _Told(QObject):
     over = Signal(object)
 
 
-class _Job(QRunnable):
+class _Job:
     def __init__(
         self,
         work: Callable[[], Any],
@@ -97,12 +97,10 @@ class _Job(QRunnable):
         too_large: str,
         broken: str,
     ) -> None:
-        super().__init__()
-        self.setAutoDelete(False)
         self.work, self.done, self.failed = work, done, failed
         self.too_large, self.broken, self.told = too_large, broken, _Told()
 
-    def run(self) -> None:
+    def __call__(self) -> None:
         try:
             self.told.done.emit(self, self.work())
         except REFUSALS as fault:

@@ -29,8 +29,8 @@ BUDGET = 130_000
 COMFORT = 20_000
 """... and what is played well: as many a new control object is given, unless more are asked for."""
 
-ROOM = 500_000
-"""Points, of all stages, that stories worked out lately may have together: some 200 MB; older ones are told anew."""
+ROOM = 200_000
+"""Points, of all stages, that stories worked out lately may have together: some 80 MB; older ones are told anew."""
 
 SENTENCES = {
     "topology": "New topology: a point on every edge, smaller faces between them. Nothing moves.",
