@@ -301,7 +301,7 @@ def subdivide(control: Mesh, scheme: Scheme, levels: int, *, most: int | None = 
     TopologyError
         If the scheme refuses the control object, or there is no room: for ``most`` faces, or in this machine's memory.
     """
-    swift = is_swift(control.topology, scheme)
+    swift = is_swift(control.topology, scheme, levels)
     require_room(scheme, control.topology, levels, SWIFT if swift else STAGED, most)
     made = once(control.topology, scheme, levels)
     return Mesh(made.topology, frozen(made.apply(control.points)))

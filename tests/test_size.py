@@ -45,7 +45,7 @@ def test_what_has_no_room_is_refused_before_anything_is_made(monkeypatch):
     monkeypatch.setattr(size, "free_memory", lambda: 10**9)
     assert size.room(STAGED) == 800_000
     cube = shapes.cube()
-    with pytest.raises(TooLarge, match=r"^40 levels would make 1,572,866 faces at level 9 already; .*at most 8, for "):
+    with pytest.raises(TooLarge, match=r"^40 levels would make 6,291,458 faces at level 10 already; .*at most 9, for "):
         subdivide(cube, DOO_SABIN, 40)
     with pytest.raises(TooLarge, match=r"^8 levels would make 393,216 faces; .*at most 7, for .* 300,000 faces"):
         subdivide(cube, CATMULL_CLARK, 8, most=300_000)
@@ -58,10 +58,10 @@ def test_what_has_no_room_is_refused_before_anything_is_made(monkeypatch):
 def test_swift_schemes_go_deeper_in_the_same_memory(monkeypatch):
     monkeypatch.setattr(size, "free_memory", lambda: 10**9)
     t = shapes.cube().topology
-    require_room(CATMULL_CLARK, t, 10, SWIFT)
+    require_room(CATMULL_CLARK, t, 9, SWIFT)
     for each in (STAGED, TRACED):
         with pytest.raises(TooLarge):
-            require_room(CATMULL_CLARK, t, 10, each)
+            require_room(CATMULL_CLARK, t, 9, each)
 
 
 def test_what_is_small_asks_no_machine(monkeypatch):

@@ -142,11 +142,12 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     return Plan(t, tuple(steps))
 
 
-def is_swift(t: Connectivity, scheme: Scheme) -> bool:
-    """Whether whole arrays make it, which need little memory beside it."""
+def is_swift(t: Connectivity, scheme: Scheme, levels: int) -> bool:
+    """Whether whole arrays make all of it, which need little memory beside it."""
     if not isinstance(t, Topology):
         return False
-    return bool(scheme.reach or scheme.middles or scheme.beside)
+    is_dual = scheme.corners and scheme.numbering and levels % scheme.numbering.steps == 0
+    return bool(scheme.reach or scheme.middles or scheme.beside or is_dual or scheme.tension is not None)
 
 
 def _kept(step: AnyStep) -> AnyStep:
