@@ -1,13 +1,11 @@
-"""The picture as it is seen now, in a file or on the clipboard."""
+"""The picture as it is seen now, in a file or on the clipboard: how fine it is, and where it goes."""
 
-import sys
-from collections.abc import Callable, Mapping
-from functools import cache
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, QSize, QThreadPool
+from PySide6.QtCore import QSize
 from PySide6.QtGui import QImage
 
+from app.draw.darkroom import Order
 from app.draw.picture import Picture
 from subdivision.files.saving import save as write
 from subdivision.words import phrase
@@ -22,22 +20,19 @@ class SavingError(Exception):
     """Why a picture was not saved, in a sentence for the user."""
 
 
-@cache
-def darkroom() -> QThreadPool:
-    """Where pictures are drawn: the off-screen window belongs to one thread, and not to that of the window."""
-    found = QThreadPool()
-    found.setMaxThreadCount(1)
-    found.setExpiryTimeout(-1)
-    return found
+def ordered(picture: Picture, kind: str, seen: QSize) -> Order:
+    """A picture ``seen`` at a size, to be drawn at a size for slides, with its caption."""
+    scale = max(2.0, WIDTH / max(seen.width(), 1))
+    return Order(kind, picture, round(scale * seen.width()), round(scale * seen.height()))
 
 
-def save(picture: Picture, path: Path, seen: QSize) -> Path:
-    """Write a picture ``seen`` at a size; the suffix chooses, PNG where there is none.
+def named(path: Path) -> Path:
+    """Where a picture goes; the suffix chooses its kind, PNG where there is none.
 
     Raises
     ------
     SavingError
-        If it cannot be written there.
+        If there is no such kind.
     """
     path = path if path.suffix else path.with_suffix(".png")
     if path.suffix.lower() not in SUFFIXES:
@@ -49,8 +44,19 @@ def save(picture: Picture, path: Path, seen: QSize) -> Path:
                 suffix=path.suffix,
             )
         )
+    return path
+
+
+def save(path: Path, data: bytes) -> Path:
+    """Write a picture that is drawn.
+
+    Raises
+    ------
+    SavingError
+        If it cannot be written there.
+    """
     try:
-        write(path, [_WRITERS[path.suffix.lower()](picture, seen)])
+        write(path, [data])
     except OSError as fault:
         raise SavingError(
             phrase("{path} could not be written ({reason}): choose another folder.", path=path, reason=fault.strerror)
@@ -58,45 +64,6 @@ def save(picture: Picture, path: Path, seen: QSize) -> Path:
     return path
 
 
-def _png(picture: Picture, seen: QSize) -> bytes:
-    held = QBuffer()
-    held.open(QIODevice.OpenModeFlag.WriteOnly)
-    image(picture, seen).save(held, "PNG")  # type: ignore[call-overload]
-    return bytes(held.data().data())
-
-
-def _svg(picture: Picture, seen: QSize) -> bytes:
-    from app.draw.vector import svg
-
-    return svg(picture, *_size(seen)).encode()
-
-
-def _pdf(picture: Picture, seen: QSize) -> bytes:
-    from app.draw.pdf import pdf
-
-    return pdf(picture, *_size(seen))
-
-
-_WRITERS: Mapping[str, Callable[[Picture, QSize], bytes]] = {".png": _png, ".svg": _svg, ".pdf": _pdf}
-
-
-def image(picture: Picture, seen: QSize) -> QImage:
-    """The picture at a size for slides, with its caption."""
-    from app.draw import raster
-
-    pixels = raster.image(picture, *_size(seen))
-    raster.shrink()
-    height, width = pixels.shape[:2]
-    return QImage(pixels.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBA8888).copy()
-
-
-def close() -> None:
-    """Give the off-screen window back, if there is one, before the display goes; what is being drawn is drawn first."""
-    if "app.draw.raster" in sys.modules:
-        darkroom().start(sys.modules["app.draw.raster"].close)
-        darkroom().waitForDone()
-
-
-def _size(seen: QSize) -> tuple[int, int]:
-    scale = max(2.0, WIDTH / max(seen.width(), 1))
-    return round(scale * seen.width()), round(scale * seen.height())
+def image(order: Order, pixels: bytes) -> QImage:
+    """A picture that is drawn as pixels."""
+    return QImage(pixels, order.width, order.height, 4 * order.width, QImage.Format.Format_RGBA8888).copy()

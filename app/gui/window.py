@@ -31,6 +31,7 @@ from PySide6.QtWidgets import (
 
 import lessons
 from app.asking import toggle_asking
+from app.draw.darkroom import Order
 from app.draw.theme import THEMES
 from app.export.wish import Wish
 from app.gui import menus, saving
@@ -38,6 +39,7 @@ from app.gui.authoring import Authoring
 from app.gui.autosave import Autosave
 from app.gui.banner import Banner
 from app.gui.contents import Contents
+from app.gui.darkroom import Darkroom
 from app.gui.details import Details
 from app.gui.document import Document
 from app.gui.editing import EDITS, SHARPNESS, Editing
@@ -112,7 +114,8 @@ class Window(QMainWindow):
         self.banner, self.presenter = Banner(session), Presenter(session)
         self.manual = Manual(session, self.banner, settings)
         self.worker = Worker(session, self.banner)
-        self.copier, self.saver = (Worker(session, self.banner, saving.darkroom()) for _ in range(2))
+        self.darkroom = Darkroom()
+        self.copier, self.saver = (Worker(session, self.banner, self.darkroom.pool) for _ in range(2))
         self._build()
         self._put_up()
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
@@ -362,6 +365,7 @@ class Window(QMainWindow):
     def save_picture(self) -> None:
         suggested = str(Path(self._folder("pictures")) / f"{self.session.state.lesson.id}.png")
         kinds = "PNG (*.png);;SVG (*.svg);;PDF (*.pdf)"
+        self.darkroom.warm()
         path, _ = QFileDialog.getSaveFileName(self, tr("Save the picture"), suggested, kinds)
         if path:
             self.settings.setValue("folder_pictures", str(Path(path).parent))
@@ -369,8 +373,14 @@ class Window(QMainWindow):
 
     def save_picture_to(self, path: str) -> None:
         """Write what the viewport shows, finer than on the screen."""
-        picture, seen = self.viewport.picture(), self.viewport.size()
-        self._draw(self.saver, lambda: saving.save(picture, Path(path), seen), self._saved)
+        try:
+            whole = saving.named(Path(path))
+        except saving.SavingError as fault:
+            self.banner.say(str(fault))
+            return
+        kind = whole.suffix.lower().removeprefix(".")
+        order = saving.ordered(self.viewport.picture(), kind, self.viewport.size())
+        self._draw(self.saver, order, lambda data: saving.save(whole, data), self._saved)
 
     def _saved(self, path: Path) -> None:
         self.banner.tell(phrase("Saved {path}", path=path))
@@ -412,21 +422,21 @@ class Window(QMainWindow):
 
     def copy_picture(self) -> None:
         """Put what the viewport shows on the clipboard, finer than on the screen."""
-        picture, seen = self.viewport.picture(), self.viewport.size()
-        self._draw(self.copier, lambda: saving.image(picture, seen), self._copied)
+        order = saving.ordered(self.viewport.picture(), "pixels", self.viewport.size())
+        self._draw(self.copier, order, lambda pixels: saving.image(order, pixels), self._copied)
 
     def _copied(self, image: QImage) -> None:
         QGuiApplication.clipboard().setImage(image)
         self.banner.tell("The picture is on the clipboard.")
 
-    def _draw(self, worker: Worker, work: Callable[[], Any], then: Callable[[Any], None]) -> None:
-        """Draw a picture elsewhere, and then do something here."""
+    def _draw(self, worker: Worker, order: Order, keep: Callable[[bytes], Any], then: Callable[[Any], None]) -> None:
+        """Draw a picture and keep it, both elsewhere; and then do something here."""
         worker.start(
-            work, then, self.banner.say,
+            lambda: keep(self.darkroom.draw(order)), then, self.banner.say,
             waiting="Drawing the picture …",
             too_large="There is not enough memory for this picture; make the window smaller.",
             broken="Something went wrong inside the program; the log has the details.",
-            patience=DRAWING,
+            patience=DRAWING, stop=lambda: self.darkroom.stop(order),
         )  # fmt: skip
 
     def quit(self) -> None:
@@ -702,7 +712,8 @@ class Window(QMainWindow):
         self.presenter.close()
         self.manual.close()
         self.viewport.close_vtk()
-        for worker in (self.copier, self.saver):
-            worker.forget()
-        saving.close()
+        self.copier.cancel()
+        self.saver.forget()
+        self.hide()
+        self.darkroom.close()
         super().closeEvent(event)

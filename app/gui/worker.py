@@ -19,6 +19,10 @@ REFUSALS = (FileError, KeepingError, SavingError, TopologyError)
 """Faults that are sentences for the user."""
 
 
+class Stopped(Exception):
+    """The work was told to stop."""
+
+
 class Worker(QObject):
     """One piece of work at a time; a newer one replaces an older one, which is then no longer wanted."""
 
@@ -30,6 +34,7 @@ class Worker(QObject):
         self._patience = QTimer(self, singleShot=True, interval=PATIENCE)
         self._patience.timeout.connect(self._announce)
         self._waiting = ""
+        self._stop: Callable[[], None] | None = None
 
     @property
     def is_busy(self) -> bool:
@@ -45,14 +50,16 @@ class Worker(QObject):
         too_large: str,
         broken: str,
         patience: int = PATIENCE,
+        stop: Callable[[], None] | None = None,
     ) -> None:
         """Do ``work`` elsewhere; here ``done`` is told what it made, or ``failed`` a sentence.
 
         ``waiting`` is said when it takes longer than ``patience`` milliseconds, ``too_large`` and ``broken`` where it
-        ends in no sentence of its own.
+        ends in no sentence of its own.  ``stop`` makes ``work`` end before its time, by raising ``Stopped``; without it
+        what is no longer wanted is done nevertheless.
         """
         self.forget()
-        self._waiting = waiting
+        self._waiting, self._stop = waiting, stop
         self._job = _Job(work, done, failed, too_large, broken)
         self._running.add(self._job)
         self._job.told.over.connect(self._running.discard)
@@ -67,9 +74,15 @@ class Worker(QObject):
         self._banner.done()
         self._job = None
 
+    def cancel(self) -> None:
+        """Stop what is being worked on."""
+        if self._job is not None and self._stop is not None:
+            self._stop()
+        self.forget()
+
     def _announce(self) -> None:
         if self._job is not None:
-            self._banner.wait(self._waiting, self.forget)
+            self._banner.wait(self._waiting, self.cancel)
 
     def _succeeded(self, job: "_Job", made: object) -> None:
         if job is self._job:
@@ -103,6 +116,8 @@ class _Job:
     def __call__(self) -> None:
         try:
             self.told.done.emit(self, self.work())
+        except Stopped:
+            self.told.failed.emit(self, "")
         except REFUSALS as fault:
             self.told.failed.emit(self, str(fault))
         except MemoryError:

@@ -42,10 +42,11 @@ def _session(path: Path, version: int) -> object:
 def _picture(path: Path, version: int) -> object:
     from PySide6.QtCore import QSize
 
+    from app.draw.darkroom import drawn
     from app.draw.seen import seen
-    from app.gui.saving import save
+    from app.gui.saving import ordered, save
 
-    return save(seen(state(version)), path, QSize(*SIZE))
+    return save(path, drawn(ordered(seen(state(version)), "png", QSize(*SIZE))))
 
 
 def _mesh(path: Path, version: int) -> object:
