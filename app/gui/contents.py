@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
 )
 
 from app.draw.theme import THEMES
-from app.gui.furniture import scroll_alike
 from app.gui.look import GRID, chosen_of, colour, fine, icon, px, tint_of, type_face
 from app.gui.session import Session
 from app.laboratory.bench import enter
@@ -95,12 +94,11 @@ class Contents(QWidget):
         self._shown = state
 
     def inherit(self, before: "Contents") -> None:
-        """Take over what is searched for, how far the list is scrolled, and lessons from elsewhere."""
+        """Take over what is searched for, and lessons from elsewhere."""
         self._faults, self._lessons = before._faults, before._lessons
         self._fill()
         self.list.setCurrentIndex(self._index_of(self._session.state.lesson))
         self.search.setText(before.search.text())
-        scroll_alike(self.list, before.list)
 
     def _dress(self, theme: str) -> None:
         for action in self.search.actions():

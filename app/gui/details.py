@@ -1,9 +1,8 @@
 """The panel at the right: what can be asked, changed and shown, in sections that fold and stay as they were left."""
 
 from PySide6.QtCore import QSettings, Qt
-from PySide6.QtWidgets import QScrollArea, QWidget
+from PySide6.QtWidgets import QScrollArea, QVBoxLayout, QWidget
 
-from app.gui.furniture import scroll_alike
 from app.gui.look import GRID, px
 from app.gui.parts import Head, column
 
@@ -12,16 +11,21 @@ FOLDED = "folded"
 
 
 class Details(QScrollArea):
-    """Parts one under another; ``stretched`` takes what room is left."""
+    """Parts one under another."""
 
-    def __init__(self, *parts: QWidget, stretched: QWidget) -> None:
+    def __init__(self) -> None:
         super().__init__(widgetResizable=True)
-        inside = column(*parts, stretched=stretched)
+        inside = column()
         inside.setContentsMargins(px(2 * GRID), px(GRID + 4), px(2 * GRID), px(2 * GRID))
+        self._column: QVBoxLayout = inside.layout()  # type: ignore[assignment]
         self.setWidget(inside)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setMinimumWidth(px(184))
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+
+    def add(self, part: QWidget, *, is_stretched: bool) -> None:
+        """One part more; of what room is left it takes all, or none."""
+        self._column.addWidget(part, int(is_stretched))
 
     def keep(self, settings: QSettings) -> None:
         """Remember which sections are folded away."""
@@ -35,10 +39,9 @@ class Details(QScrollArea):
             head.setChecked(head.text() not in folded)
 
     def inherit(self, before: "Details") -> None:
-        """Take over what is folded away, and how far it is scrolled."""
+        """Take over what is folded away."""
         for head, was in zip(self._heads(), before._heads(), strict=True):
             head.setChecked(was.isChecked())
-        scroll_alike(self, before)
 
     def _heads(self) -> list[Head]:
         return self.findChildren(Head)

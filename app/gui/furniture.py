@@ -35,10 +35,15 @@ def sit_down(pieces: Mapping[str, QWidget], seat: Seat | None) -> None:
         widget.setFocus(Qt.FocusReason.OtherFocusReason)
 
 
-def scroll_alike(new: QAbstractScrollArea, old: QAbstractScrollArea) -> None:
-    """Show the same part of a list or a panel, as soon as it has been laid out."""
-    was, bar = old.verticalScrollBar(), new.verticalScrollBar()
-    part = was.value() / max(was.maximum(), 1)
+def scrolled(area: QAbstractScrollArea) -> float:
+    """How far a list or a panel is scrolled, from 0 to 1."""
+    bar = area.verticalScrollBar()
+    return bar.value() / max(bar.maximum(), 1)
+
+
+def scroll(area: QAbstractScrollArea, part: float) -> None:
+    """Scroll a list or a panel so far, as soon as it has been laid out."""
+    bar = area.verticalScrollBar()
     QTimer.singleShot(0, bar, lambda: bar.setValue(round(part * bar.maximum())))
 
 

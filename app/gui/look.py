@@ -1,6 +1,7 @@
 """The window's looks from a theme: palette, style sheet, typeface and icons."""
 
 import re
+from collections.abc import Generator
 from functools import cache
 
 from PySide6.QtCore import QByteArray, QPointF, QRectF, QSize, Qt
@@ -101,7 +102,7 @@ class Style(QProxyStyle):
     ) -> int:
         if not isinstance(widget, QWidget):  # one that is being made may still bear the name of what was there before
             widget = None
-        if self._is_within:  # one measure asks for another
+        if self._is_within or _scale == 1.0:  # one measure asks for another
             return super().pixelMetric(metric, option, widget)
         self._is_within = True
         try:
@@ -129,13 +130,13 @@ class Style(QProxyStyle):
         painter.restore()
 
 
-def dress(app: QApplication, theme: Theme) -> None:
-    """Give the whole program the colours of a theme."""
-    is_other = (wanted := sheet(theme)) != app.styleSheet()
-    if is_other:  # only then: Qt goes through every widget
+def dressing(app: QApplication, theme: Theme) -> Generator[None, None, None]:
+    """Give the whole program the colours of a theme, in two steps: Qt goes through every widget twice."""
+    if is_other := (wanted := sheet(theme)) != app.styleSheet():
         app.setStyleSheet("")  # one sheet for another takes twice as long as none and then the other
     app.setFont(type_face(14))
     app.setPalette(palette(theme))
+    yield
     if is_other:
         app.setStyleSheet(wanted)
 

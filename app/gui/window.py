@@ -1,8 +1,10 @@
 """The window: the picture in the middle, everything else round it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from PySide6.QtCore import QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
@@ -16,6 +18,7 @@ from PySide6.QtGui import (
     QResizeEvent,
 )
 from PySide6.QtWidgets import (
+    QAbstractScrollArea,
     QApplication,
     QFileDialog,
     QHBoxLayout,
@@ -44,15 +47,16 @@ from app.gui.details import Details
 from app.gui.document import Document
 from app.gui.editing import EDITS, SHARPNESS, Editing
 from app.gui.export import ExportDialog, Exporter
-from app.gui.furniture import enter_what_is_typed, seat_of, sit_down, throw_away
+from app.gui.furniture import enter_what_is_typed, scroll, scrolled, seat_of, sit_down, throw_away
 from app.gui.keys import BY_ID, COMMANDS, KeyGuard, spelled_keys
 from app.gui.knobs import Knobs
 from app.gui.laboratory import Laboratory
-from app.gui.look import GRID, SCALES, colour, dress, fine, icon, line_of, px, rescale, system_theme
+from app.gui.look import GRID, SCALES, colour, dressing, fine, icon, line_of, px, rescale, system_theme
 from app.gui.manual import Manual
 from app.gui.notes import Notes
 from app.gui.opening import Opener
 from app.gui.parts import Section, column
+from app.gui.pieces import Furniture
 from app.gui.presenter import Presenter, spare_screen
 from app.gui.recorder import Recorder
 from app.gui.session import Session
@@ -62,6 +66,7 @@ from app.gui.spectrum import Spectrum
 from app.gui.surface import Surface
 from app.gui.timeline import Timeline, tool_button
 from app.gui.tongue import speak_everywhere
+from app.gui.turns import Turns
 from app.gui.viewport import Viewport
 from app.gui.why import Why
 from app.gui.worker import Worker
@@ -74,6 +79,8 @@ from app.sessions.strict import KeepingError
 from app.state import State, choose, pick
 from app.words import SYSTEM, language, system_language, tr
 from subdivision.words import phrase
+
+Made = TypeVar("Made")
 
 NAME = "Subdivision Studio"
 DRAWING = 500
@@ -94,6 +101,12 @@ class Window(QMainWindow):
     recorder: Recorder
     viewport: Viewport
     manual: Manual
+    timeline: Timeline
+    contents: Contents
+    laboratory: Laboratory
+    editing: Editing
+    details: Details
+    _furniture: Furniture
     _body: QWidget
     _sides: dict[str, QWidget]
 
@@ -103,7 +116,7 @@ class Window(QMainWindow):
         self.session, self.settings = session, settings
         self._scale, self._wide = session.state.options.scale, {name: float(wide) for name, wide in WIDE.items()}
         rescale(self._scale)
-        dress(QApplication.instance(), THEMES[session.state.options.theme])  # type: ignore[arg-type]
+        ended(dressing(QApplication.instance(), THEMES[session.state.options.theme]))  # type: ignore[arg-type]
         self.document = Document(session, settings)
         self._entitle()
         self.setAcceptDrops(True)
@@ -116,8 +129,12 @@ class Window(QMainWindow):
         self.worker = Worker(session, self.banner)
         self.darkroom = Darkroom()
         self.copier, self.saver = (Worker(session, self.banner, self.darkroom.pool) for _ in range(2))
+        self._turns = Turns(self)
         self._build()
-        self._put_up()
+        new = ended(self._made())
+        self._put_up(new)
+        for section in new.sections:
+            new.details.add(section, is_stretched=section is new.place)
         self.exporter, self._wish = Exporter(self, self.banner), Wish("pptx")
         self.opener = Opener(session, self.banner, self.opened)
         self.authoring = Authoring(self, Path(settings.fileName()).with_name("lessons.json"))
@@ -129,20 +146,20 @@ class Window(QMainWindow):
         session.changed.connect(self.show_state)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._follow_system)
         self.show_state(session.state)
+        self._turns.finish()
         self.viewport.setFocus()
 
     # -- showing --------------------------------------------------------------------------------
 
     def show_state(self, state: State) -> None:
-        if state.options.language != language():
-            speak_everywhere(state.options.language)
-            self.furnish()
-            return
-        if state.options.scale != self._scale:
-            self.furnish()
-            return
-        if state.options.theme != self._theme:
-            self._dress(state.options.theme)
+        if self._turns.are_left:
+            return  # the window changes its looks, and then shows the state of the moment
+        if self._changes(state) is None:
+            self._show(state)
+        else:
+            self._turns.begin(self._changing())
+
+    def _show(self, state: State) -> None:
         for view in self._views:
             with apart():  # a panel that fails keeps no other from showing the state
                 view.show_state(state)
@@ -160,10 +177,56 @@ class Window(QMainWindow):
         if state.options.presenting != self._is_presenting:
             self._present(state.options.presenting)
 
-    def _dress(self, theme: str) -> None:
-        self._theme = theme
+    @property
+    def is_changing(self) -> bool:
+        """Whether the window changes its looks, which takes it some turns of its event loop."""
+        return self._turns.are_left
+
+    @contextmanager
+    def _unseen(self) -> Iterator[None]:
+        """The screen stays as it is until everything has changed."""
+        windows, parts = (self, self.presenter, self.manual), [scrolled(area) for area in self._scrolled()]
+        self._middle.setEnabled(False)  # the picture changes its size once, at the end
+        for window in windows:
+            window.setUpdatesEnabled(False)
+        try:
+            yield
+        finally:
+            for window in windows:
+                window.setUpdatesEnabled(True)
+            self._middle.setEnabled(True)
+            self._middle.activate()
+            for area, part in zip(self._scrolled(), parts, strict=True):
+                scroll(area, part)
+
+    def _scrolled(self) -> tuple[QAbstractScrollArea, ...]:
+        """What can be scrolled round the picture."""
+        return self.contents.list, self.details
+
+    def _changes(self, state: State) -> Iterator[None] | None:
+        """What must be done, step by step, before the window looks as the state wants it; None: nothing."""
+        if state.options.language != language() or state.options.scale != self._scale:
+            return self._furnishing()
+        return self._dressed() if state.options.theme != self._theme else None
+
+    def _changing(self) -> Iterator[None]:
+        """Other words, another size, another theme; everything else is as it was."""
+        while (changes := self._changes(self.session.state)) is not None:
+            with self._unseen():
+                yield from changes
+                yield
+                self._show(self.session.state)
+
+    def _dressed(self) -> Iterator[None]:
+        """Everything that there is in the theme, and at the scale, of the state."""
+        self._theme = theme = self.session.state.options.theme
+        steps = dressing(QApplication.instance(), THEMES[theme])  # type: ignore[arg-type]
         with self._guard.away():
-            dress(QApplication.instance(), THEMES[theme])  # type: ignore[arg-type]
+            next(steps)
+        yield
+        with self._guard.away():
+            ended(steps)
+        yield
         for id_, action in self.actions_by_id.items():
             if name := BY_ID[id_].icon:
                 action.setIcon(icon(name, theme))
@@ -487,65 +550,105 @@ class Window(QMainWindow):
         self.setCentralWidget(self._body)
 
     def furnish(self) -> None:
-        """Change the furniture for new, for other words or another size; everything else is as it was."""
-        with self._guard.away():
-            self._furnish()
+        """Change the furniture for new at once."""
+        self._turns.finish()
+        with self._unseen():
+            for _ in self._furnishing():
+                pass
+            self._show(self.session.state)
 
-    def _heirs(self) -> tuple[Any, ...]:
-        """The furniture that takes over from the furniture before."""
-        return self.contents, self.details, self.laboratory, self.editing, self.spectrum
-
-    def _furnish(self) -> None:
+    def _furnishing(self) -> Iterator[None]:
+        """Change the furniture for new, for other words or another size."""
         options = self.session.state.options
+        speak_everywhere(options.language)
         if options.scale != self._scale:
             self._scale = options.scale
             rescale(self._scale)
-            self._dress(options.theme)  # what is made after it is dressed once
-        places = self._places()
-        self._middle.setEnabled(False)  # the picture changes its size once, at the end
-        seat = seat_of(places, QApplication.focusWidget())
-        if seat is not None:
-            enter_what_is_typed()
-        before = self._heirs()
-        is_bare = self.timeline.isHidden(), self.menuBar().isHidden()
-        throw_away(self._put_up())
-        for lasting in (self.banner, self.presenter, self.viewport.narration):
-            lasting.furnish()
-        for part, is_hidden in zip((self.timeline, self.menuBar()), is_bare, strict=True):
-            part.setHidden(is_hidden)
-        self.show_state(self.session.state)
-        for part, old in zip(self._heirs(), before, strict=True):
-            part.inherit(old)
-        for sheet in self.sheets:
-            sheet.update()
-        self._make_room()
-        self._middle.setEnabled(True)
-        self._middle.activate()
-        sit_down(self._places(), seat)
+            yield from self._dressed()  # what is made after it is dressed once
+            yield
+        new = yield from self._made()
+        for view in new.views:
+            yield
+            with apart(), self._guard.away():
+                view.show_state(self.session.state)
+                for part in view.findChildren(QWidget):
+                    part.ensurePolished()
+        for step in self._changing_for(new):
+            yield
+            with self._guard.away():
+                step()
+
+    def _changing_for(self, new: Furniture) -> Iterator[Callable[[], None]]:
+        """How the new furniture is put where the old was, with all that it inherits."""
+        seat, before, old = None, self._furniture.heirs, list[QWidget]()
+
+        def clear() -> None:
+            nonlocal seat
+            seat = seat_of(self._places(), QApplication.focusWidget())
+            if seat is not None:
+                enter_what_is_typed()
+
+        def put() -> None:
+            is_bare = self.timeline.isHidden(), self.menuBar().isHidden()
+            old.extend(self._put_up(new))
+            for part, is_hidden in zip((self.timeline, self.menuBar()), is_bare, strict=True):
+                part.setHidden(is_hidden)
+
+        def inherit() -> None:
+            for part, was in zip(new.heirs, before, strict=True):
+                part.inherit(was)
+            throw_away(old)
+            for sheet in self.sheets:
+                sheet.update()
+            self._make_room()
+
+        yield clear
+        yield put
+        yield from (partial(new.details.add, each, is_stretched=each is new.place) for each in new.sections)
+        yield from (each.furnish for each in (self.banner, self.presenter, self.viewport.narration))
+        yield inherit
+        yield lambda: sit_down(self._places(), seat)
 
     def _places(self) -> dict[str, QWidget]:
         """Everything that is made anew, piece by piece."""
         return {**self._sides, "foot": self._foot, "banner": self.banner, "presenter": self.presenter}
 
-    def _put_up(self) -> list[QWidget]:
-        """Make the panels, the timeline and the menus; the panels that were there before."""
+    def _made(self) -> Generator[None, None, Furniture]:
+        """The panels and the timeline, made."""
         session = self.session
+        timeline, contents = Timeline(session, self._button), Contents(session, lessons.all_lessons())
+        contents.found.connect(self.leave_search)
+        contents.asked.connect(self.banner.say)
+        yield
+        laboratory, editing = Laboratory(session, self.banner, self.worker), Editing(session, self.banner)
+        spectrum, knobs, shown = Spectrum(session, laboratory.wish), Knobs(session), Shown(session)
+        surface, why, notes = Surface(session), Why(session), Notes()
+        yield
+        place, tools = Section("Why is it here?", why, stretched=why), Section("Shown", shown)
+        sections = laboratory, knobs, place, notes, editing, tools, Section("Surface shows", surface), spectrum
+        return Furniture(
+            timeline,
+            contents,
+            laboratory,
+            editing,
+            spectrum,
+            knobs,
+            shown,
+            surface,
+            why,
+            notes,
+            Details(),
+            place,
+            sections,
+        )
+
+    def _put_up(self, new: Furniture) -> list[QWidget]:
+        """Put the panels, the timeline and new menus in their places; what was there before."""
         self._name_actions()
-        self.timeline = Timeline(session, self._button)
-        self.contents = Contents(session, lessons.all_lessons())
-        self.contents.found.connect(self.leave_search)
-        self.contents.asked.connect(self.banner.say)
-        self.laboratory = Laboratory(session, self.banner, self.worker)
-        self.editing = Editing(session, self.banner)
-        self.spectrum = Spectrum(session, self.laboratory.wish)
-        self.knobs, self.shown, self.why, self.notes = Knobs(session), Shown(session), Why(session), Notes()
-        self.surface = Surface(session)
-        self.details = self._details()
-        self._views = (
-            self.viewport, self.banner, self.timeline, self.contents,
-            self.laboratory, self.editing, self.spectrum, self.knobs, self.shown, self.surface, self.why, self.notes,
-            self.presenter, self.manual,
-        )  # fmt: skip
+        self._furniture = new
+        for name, piece in vars(new).items():  # each by its name
+            setattr(self, name, piece)
+        self._views = self.viewport, self.banner, *new.views, self.presenter, self.manual
         self._sides = {"contents": self.contents, "details": self.details}
         old: list[QWidget] = self._foot.findChildren(Timeline)
         for k, side in zip((0, 2), self._sides.values(), strict=True):
@@ -572,11 +675,6 @@ class Window(QMainWindow):
             keys = ", ".join(spelled_keys(command))
             action.setText(tr(command.name))
             action.setToolTip(f"{tr(command.name)} ({keys})" if keys else tr(command.name))
-
-    def _details(self) -> Details:
-        why = Section("Why is it here?", self.why, stretched=self.why)
-        tools = (self.editing, Section("Shown", self.shown), Section("Surface shows", self.surface), self.spectrum)
-        return Details(self.laboratory, self.knobs, why, self.notes, *tools, stretched=why)
 
     def _hairline(self) -> QWidget:
         line = QWidget()
@@ -702,6 +800,7 @@ class Window(QMainWindow):
         if self.document.is_modified and not self._may_close():
             event.ignore()
             return
+        self._turns.finish()
         self.session.stop()
         self.exporter.stop()
         self.authoring.stop()
@@ -717,3 +816,12 @@ class Window(QMainWindow):
         self.hide()
         self.darkroom.close()
         super().closeEvent(event)
+
+
+def ended(steps: Generator[object, None, Made]) -> Made:
+    """What comes of steps that are all done at once."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value

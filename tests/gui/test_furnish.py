@@ -3,11 +3,12 @@
 from collections import Counter
 
 import pytest
-from PySide6.QtCore import SIGNAL, QCoreApplication, QEvent, Qt
+from PySide6.QtCore import SIGNAL, QCoreApplication, QEvent, Qt, QTimer
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.draw.compose import said
+from app.draw.theme import THEMES
 from app.gui.parts import Head
 from app.laboratory import bench
 from app.state import Spot, choose, forward, look, toggle
@@ -121,3 +122,34 @@ def test_presenting_stays_presenting(window):
     settle()
     assert window.timeline.isVisible()
     assert window.contents.isVisible()
+
+
+def test_the_window_answers_while_it_changes_its_looks(qtbot, window):
+    answered = []
+    timer = QTimer(interval=0)
+    timer.timeout.connect(lambda: answered.append(window.is_changing))
+    timer.start()
+    window.contents.search.setText("cube")
+    window.session.do(choose, scale=1.25)
+    window.session.do(toggle, "labels")  # all of it before the first change is over
+    window.session.do(choose, theme="dark")
+    window.session.do(choose, language="de")
+    qtbot.waitUntil(lambda: not window.is_changing)
+    timer.stop()
+    assert sum(answered) > 10
+    assert window.updatesEnabled()
+    assert window.contents.search.text() == "cube"
+    assert window.shown._switches["labels"].isChecked()
+    assert window.menuBar().actions()[0].text() == "&Datei"
+    assert (window.font().pixelSize(), window.viewport.picture().background) == (18, THEMES["dark"].background)
+    window.session.do(choose, language="en")
+    qtbot.waitUntil(lambda: not window.is_changing)
+    assert window.menuBar().actions()[0].text() == "&File"
+
+
+def test_a_window_that_changes_its_looks_can_be_closed(window):
+    window.session.do(choose, scale=1.5)
+    assert window.is_changing
+    window.close()
+    assert not window.is_changing
+    assert window.settings.value("contents") == "shown"

@@ -114,11 +114,12 @@ def test_no_word_of_a_dialog_is_forgotten(abroad):
     assert "⟦" in abroad.banner.words.text()
 
 
-def test_the_language_changes_while_the_window_stands(window):
+def test_the_language_changes_while_the_window_stands(qtbot, window):
     session, viewport = window.session, window.viewport
     session.do(toggle, "labels")
     titles = [action.text() for action in window.menuBar().actions()]
     window.actions_by_id["language_de"].trigger()
+    qtbot.waitUntil(lambda: not window.is_changing)
     assert window.viewport is viewport
     assert [action.text() for action in window.menuBar().actions()][:2] == ["&Datei", "&Bearbeiten"]
     assert window.actions_by_id["forward"].text() == "Nächste Phase"
@@ -127,6 +128,7 @@ def test_the_language_changes_while_the_window_stands(window):
     session.undo()
     assert (session.state.options.labels, session.state.options.language) == (False, "de")
     window.actions_by_id["language_en"].trigger()
+    qtbot.waitUntil(lambda: not window.is_changing)
     assert [action.text() for action in window.menuBar().actions()] == titles
 
 

@@ -32,6 +32,12 @@ def settle():
     QApplication.processEvents()
 
 
+def choose_scale(qtbot, window, scale):
+    """Choose a size, and wait until the window has it."""
+    window.choose_scale(scale)
+    qtbot.waitUntil(lambda: not window.is_changing)
+
+
 def sizes(window):
     """Of each button and label, in order: its type, and the size of its icon."""
     settle()
@@ -44,11 +50,12 @@ def sizes(window):
     ]
 
 
-def test_larger_and_as_usual_by_the_keys(window):
+def test_larger_and_as_usual_by_the_keys(qtbot, window):
     window.session.do(toggle, "labels")
     options, past = window.session.state.options, list(window.session._past)
     for key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Plus):
         press(window, key)
+    qtbot.waitUntil(lambda: not window.is_changing)
     assert window.session.state.options.scale == 1.5 == settings_scale(window.settings)
     assert window.actions_by_id["scale_150"].isChecked()
     assert QApplication.font().pixelSize() == 21
@@ -72,29 +79,29 @@ def test_a_window_that_begins_large_is_as_one_that_became_so(qtbot, window, less
     def type_of(w):
         return [each.font().pixelSize() for each in (w.menuBar(), w.banner.words, w.presenter.again, w.timeline)]
 
-    window.choose_scale(1.5)
+    choose_scale(qtbot, window, 1.5)
     assert type_of(window) == [21] * 4
-    window.choose_scale(1.0)
+    choose_scale(qtbot, window, 1.0)
     QApplication.instance().setStyleSheet("")  # as where no window has been before
     began = type(window)(Session(start(lesson, Options(scale=1.5))), settings)
     qtbot.addWidget(began)
     assert type_of(began) == [21] * 4
 
 
-def test_twice_the_scale_is_twice_the_size(window):
+def test_twice_the_scale_is_twice_the_size(qtbot, window):
     window.resize(1900, 1000)
     window.session.do(bench.take, "cube")
     usual = sizes(window)
-    window.choose_scale(2.0)
+    choose_scale(qtbot, window, 2.0)
     assert sizes(window) == [(kind, 2 * font, 2 * icon) for kind, font, icon in usual]
-    window.choose_scale(1.0)
+    choose_scale(qtbot, window, 1.0)
     assert sizes(window) == usual
 
 
 @pytest.mark.parametrize(("scale", "size"), [(2.5, (1280, 720)), (0.75, (720, 480)), (2.0, (1920, 1080)),
                                              (1.5, (1280, 720))])
 def test_the_picture_keeps_half_of_the_window_and_nothing_is_cut_off(qtbot, window, scale, size):
-    window.choose_scale(scale)
+    choose_scale(qtbot, window, scale)
     window.resize(*size)
     qtbot.waitUntil(lambda: (window.width(), window.height()) == size)
     settle()

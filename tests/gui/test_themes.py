@@ -29,8 +29,9 @@ def in_view_menu(window, id_):
 
 
 @pytest.mark.parametrize("name", THEMES)
-def test_a_theme_dresses_picture_and_window(window, name):
+def test_a_theme_dresses_picture_and_window(qtbot, window, name):
     window.actions_by_id[f"theme_{name}"].trigger()
+    qtbot.waitUntil(lambda: not window.is_changing)
     assert window.viewport.picture().background == THEMES[name].background
     assert QApplication.palette().windowText().color() == colour(THEMES[name].ink)
     assert window.settings.value("theme") == name

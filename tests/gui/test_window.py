@@ -327,6 +327,7 @@ def test_a_picture_is_the_same_whether_it_is_copied_into_the_window_or_put_there
 @pytest.mark.parametrize("theme", ["light", "dark", "projector"])
 def test_the_picture_has_most_of_the_window_and_every_theme_its_background(qtbot, window, theme):
     window.session.do(choose, theme=theme)
+    qtbot.waitUntil(lambda: not window.is_changing)
     qtbot.wait(50)
     assert window.viewport.width() * window.viewport.height() >= 0.6 * 1280 * 720
     seen = window.grab().toImage().pixelColor(window.viewport.mapTo(window, QPoint(6, 300)))
