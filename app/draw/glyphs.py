@@ -25,7 +25,7 @@ FINE, COARSE, HASTY = 32, 12, 4
 """Corners to the outline of a ball: where markers are few and large, where they are many and small, and where those
 must follow the hand."""
 
-QUICK, FEWEST, FAINTEST = 0.35, 8, 6
+QUICK, FEWEST, FAINTEST = 0.35, 6, 5
 """The part of these corners that there is while a processor draws what moves; at least so many; and so many at most
 where markers are hidden."""
 
