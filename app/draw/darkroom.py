@@ -21,7 +21,7 @@ from app.lean import put_off
 PROTOCOL = 5
 """Of pickles: arrays are written as they lie in the memory."""
 
-GENTLY = 5
+GENTLY = 10
 """How much less urgent than the window this is, where processes are ranked."""
 
 
