@@ -36,7 +36,7 @@ type: # the letters and formulas of the lessons into the tables of what is set b
 	@.ci/setup test
 	@.venv/bin/python -m tests.type
 
-strength: # every hostile file, every fault and 20,000 actions, in full: takes an hour and a half
+strength: # every hostile file, every fault and 20,000 actions, in full: takes over an hour
 	@.ci/setup test
 	@.ci/strength
 
