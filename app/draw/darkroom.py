@@ -16,7 +16,6 @@ from io import BytesIO
 from typing import BinaryIO
 
 from app.draw.picture import Picture
-from app.lean import put_off
 
 PROTOCOL = 5
 """Of pickles: arrays are written as they lie in the memory."""
@@ -99,7 +98,6 @@ def _answer(order: Order) -> bytes | Failure:
 
 def main() -> None:
     """Serve whoever has started this process; what takes longest to load is there when the first order comes."""
-    put_off("matplotlib.pyplot")  # which pyvista brings along
     from app.draw import pdf, raster, vector  # noqa: F401
 
     answers = os.fdopen(os.dup(1), "wb")

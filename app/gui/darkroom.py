@@ -15,7 +15,12 @@ import app
 from app.draw.darkroom import PROTOCOL, Failure, Order
 from app.gui.worker import Stopped
 
-START = "from app.draw.darkroom import main; main()"
+START = """
+from app.lean import put_off
+put_off("matplotlib.pyplot")  # which pyvista brings along
+from app.draw.darkroom import main
+main()
+"""
 
 AT_ONCE = 2
 """Pictures: one that is copied does not wait for a large one that is being saved."""
