@@ -28,6 +28,12 @@ PLAYS = 2
 CLOCKED, SECONDS = 4, 5.0
 """So many lessons, those that take longest, are played at the program's own clock too; an empty viewport so long."""
 
+CHANGES = (("theme", "dark", "light"), ("scale", 1.25, 1.0), ("language", "de", "en"))
+"""What of the window's looks is changed, to what, and back to what."""
+
+CHANGED = 3
+"""How often there and back."""
+
 STARTS = 7
 FACES, LEVEL = 2000, 3
 DRAGGED = (1000, 700, 1300, 400, 1600)
@@ -39,7 +45,7 @@ Row: TypeAlias = tuple[str, float, float | None, float, str]
 
 def rows() -> Iterator[Row]:
     """What is measured, part by part."""
-    for part in ("start", "answers", "motion", "rest", "dragging", "lessons", "figures"):
+    for part in ("start", "answers", "motion", "rest", "dragging", "lessons", "looks", "figures"):
         command = [sys.executable, "-m", "benchmarks.window", part]
         screen = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a", "-s", SCREEN]
         with subprocess.Popen([*screen, *command], cwd=ROOT, stdout=subprocess.PIPE, text=True) as child:
@@ -94,6 +100,13 @@ class Pair:
         while time.perf_counter() < end:
             self.app.processEvents()
             time.sleep(0.002)
+
+    def throw_away(self) -> None:
+        """Delete what the window has thrown away, as the program's own event loop does."""
+        from PySide6.QtCore import QCoreApplication, QEvent
+
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        self.wait(0.2)
 
     def until_drawn(self, wish: Callable[[], object]) -> float:
         """Seconds of the processor from a wish until its picture is on the screen: other programs take none of them."""
@@ -309,6 +322,34 @@ def lessons() -> None:
     worst = max(dog.gaps, key=lambda gap: min(gap.excess, gap.busy))
     say(f"the window's thread away: at most, {worst.what}", min(worst.excess, worst.busy), None, LIMIT)
     print(dog.table(), file=sys.stderr)
+    pair.close()
+
+
+def looks() -> None:
+    """Another theme, size or language, over a lesson and in the laboratory: how long the window's thread is away."""
+    from app.gui.ahead import look_for_garbage_in_little
+    from app.laboratory import bench
+    from app.state import choose
+    from tests.gui.watchdog import LIMIT, Watchdog
+
+    pair = Pair()
+    look_for_garbage_in_little()
+    pair.wait(1.0)
+    with Watchdog(pair.window) as dog:
+        for place in ("over a lesson", "in the laboratory"):
+            for what, other, usual in CHANGES:
+                times = []
+                for value in (other, usual) * CHANGED:
+                    dog.gaps.clear()
+                    with dog.during(what):
+                        pair.session.do(choose, **{what: value})
+                        pair.wait(0.6)
+                    times.append(max((min(gap.excess, gap.busy) for gap in dog.gaps), default=0.0))
+                    pair.throw_away()
+                words = f"another {what} {place}: the window's thread away at most; half of the times less"
+                say(words, statistics.median(times), None, LIMIT)
+            pair.session.do(bench.take, "cube")
+            pair.wait(1.0)
     pair.close()
 
 

@@ -165,7 +165,7 @@ class Run:
         if self._has_faults():
             self._finish()
             return
-        self._watching = self.dog.during("")
+        self._watching = self.dog.during(self._what.partition(" ")[2])  # until it says what it does
         self._watching.__enter__()
         try:
             is_over = self._go_on()
