@@ -184,8 +184,11 @@ def _meets(fit: Spread, words: Floats) -> Mask:
 def _crossed(fit: Spread, words: Floats, along: Floats) -> Mask:
     """(n,) bool: which of the ``words`` (n, 4) have a place ``along`` a link in them."""
     gap = 0.25 * GAP * fit.unit
-    inside = (along > words[None, :, :2] - gap) & (along < words[None, :, 2:] + gap)
-    return np.asarray(_written(words) & inside.all(axis=2).any(axis=0))
+    low, high = words[:, :2] - gap, words[:, 2:] + gap
+    inside = np.ones((len(along), len(words)), dtype=bool)
+    for k in (0, 1):
+        inside &= (along[:, :, k] > low[:, k]) & (along[:, :, k] < high[:, k])
+    return np.asarray(_written(words) & inside.any(axis=0))
 
 
 def _written(words: Floats) -> Mask:
