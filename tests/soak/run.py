@@ -192,9 +192,9 @@ class Run:
         return self.report["done"] == len(self.actions)
 
     def _is_busy(self) -> bool:
-        """Whether work goes on beside the window; too long is a fault."""
+        """Whether the window changes its looks, or work goes on beside it; too long is a fault."""
         workers = (w for of in (self.session, *QApplication.topLevelWidgets()) for w in of.findChildren(Worker))
-        is_busy = self.window.exporter.is_busy or any(worker.is_busy for worker in workers)
+        is_busy = self.window.is_changing or self.window.exporter.is_busy or any(each.is_busy for each in workers)
         now = time.perf_counter()
         self._since = (self._since or now) if is_busy else None
         if self._since is not None and now - self._since > PATIENCE:
