@@ -162,7 +162,7 @@ class _Surface:
         self._shown: Facets | None = None
         self._cut: Indices | None = None
         self._faces: Faces | None = None
-        self._known: Indices | None = None
+        self._known: Faces | None = None
         self._shells: Indices | None = None
         self._colours: Floats | None = None
         self._camera: Camera | None = None
@@ -216,13 +216,19 @@ class _Surface:
         faces, cut, camera = self._faces, self._shown, self._camera
         if faces is None or cut is None or camera is None or faces.opacity < 1:
             return False
-        if faces.corners is not self._known:
-            self._known, self._shells = faces.corners, shells(faces)
+        if self._known is None or not _are_alike(faces, self._known):
+            self._known, self._shells = faces, shells(faces)
         if self._shells is None:
             return False
         depth = (cut.points - camera.position) @ unit(camera.focal - camera.position)
         is_in_front = bool(camera.scale > 0 or depth.min() > NEAR * depth.max())
         return is_in_front and is_outward(cut, self._shells)
+
+
+def _are_alike(faces: Faces, others: Faces) -> bool:
+    """Whether they have the same polygons, wherever these are."""
+    pairs = (faces.corners, others.corners), (faces.sizes, others.sizes)
+    return len(faces.points) == len(others.points) and all(a is b or np.array_equal(a, b) for a, b in pairs)
 
 
 class _Strokes:
