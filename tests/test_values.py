@@ -45,6 +45,10 @@ def held(state, vertex):
     return st.look(state, st.Spot(0, 0, vertex))
 
 
+def worn(values, scale, *, is_signed=False):
+    return ramps.coloured(ramps.places(values, scale), THEMES["light"], is_signed)
+
+
 # -- influence and basis functions --------------------------------------------------------------
 
 
@@ -59,7 +63,7 @@ def test_the_colours_of_a_surface_are_those_of_the_influence_and_the_bar_says_it
     state = held(lab("cube"), 5)
     column = told(state).whole.matrix.toarray()[:, 5]
     made = scene(state)
-    wanted = ramps.coloured(column, (0.0, column.max()), THEMES["light"], is_signed=False)
+    wanted = worn(column, (0.0, column.max()))
     assert np.abs(made.faces[0].colours - wanted).max() < 1e-12
     assert made.bar.title == "Influence of v5"
     assert [text for _, text in made.bar.ticks] == ["0", f"{column.max() / 2:.2g}", f"{column.max():.2g}"]
@@ -80,7 +84,7 @@ def test_a_curve_wears_the_influence_on_its_points_and_strokes():
     for markers in made.markers:
         if markers.stage < 0:
             shown |= {int(k): markers.colour for k in markers.ids}
-    wanted = ramps.coloured(column, (0.0, column.max()), THEMES["light"], is_signed=False)
+    wanted = worn(column, (0.0, column.max()))
     assert max(np.abs(np.array(shown[k]) - wanted[k]).max() for k in shown) < 1 / 64
     assert len({each.colour for each in made.lines}) > 4
     assert [entry.text for entry in compose(state).legend] == ["original"]
@@ -132,7 +136,7 @@ def test_curvature_is_on_a_scale_with_zero_in_its_middle_and_one_for_all_panes()
     low, high, _ = ramps.ends(np.concatenate(each), is_signed=True)
     assert low == -high
     for content, values in zip(contents, each, strict=True):
-        wanted = ramps.coloured(values, (low, high), THEMES["light"], is_signed=True)
+        wanted = worn(values, (low, high), is_signed=True)
         assert np.array_equal(content.faces[0].colours, wanted)
 
 
@@ -215,7 +219,7 @@ def test_the_limits_of_an_open_curve_wear_their_own_influence():
     state = held(lab("polygon", control=True, limit=True), 2)
     what = surface.shown(state, state.now.lead)
     column = what.trace.influence(2, len(what.trace.stages))
-    wanted = ramps.coloured(column, (0.0, column.max()), THEMES["light"], is_signed=False)
+    wanted = worn(column, (0.0, column.max()))
     k, points = len(what.trace.stages) - 1, what.trace.points[-1]
     assert len(points) < len(what.trace.points[k])
     for markers in (m for m in scene(state).markers if m.stage < 0):
