@@ -15,7 +15,8 @@ SHOWN = {"Choice", "Stepper", "Section", "Place", "Number", "heading", "addMenu"
 """What shows the words it is given."""
 
 HIDDEN = {
-    "setStyleSheet", "setObjectName", "compile", "getattr", "setStyle", "QFont", "info", "debug", "warning", "error",
+    "setStyleSheet", "setObjectName", "compile", "getattr", "setStyle", "QFont", "TypeVar", "info", "debug", "warning",
+    "error",
 }
 """Calls whose words nobody reads."""
 
