@@ -4,6 +4,7 @@ It contains a ``QtInteractor`` and sees all its input first.  VTK gets none of i
 ``Turn``, a value, so no hot key can fire and all panes stay linked.
 """
 
+from functools import partial
 from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer
@@ -145,10 +146,17 @@ class Viewport(QWidget):
             return
         if state.focus is None:
             self._is_pinned = False
+        if state.lesson is not before.lesson:
+            self._wait_a_turn()
         self._compose(is_hasty=is_dragged_only(before, state) and is_heavy(state))
         self.narration.show_state(state)
         self._arrange()
         self._paint_scenes()
+
+    def _wait_a_turn(self) -> None:
+        """Have the picture painted in the next turn of the event loop: to make a lesson's first one takes a turn."""
+        self.setUpdatesEnabled(False)
+        QTimer.singleShot(0, self, partial(self.setUpdatesEnabled, True))
 
     def _compose(self, *, is_hasty: bool) -> None:
         """The picture of the state; one made in haste lasts until the hand rests."""

@@ -244,12 +244,13 @@ def test_pointing_at_a_vertex_tells_how_it_is_made(qtbot, window):
     x, y, _ = camera.project(corner, area[2], area[3])[0]
     at = QPoint(round(area[0] + x), round(area[1] + y))
     QTest.mouseMove(window.viewport.canvas, at)
+    qtbot.waitUntil(lambda: window.session.state.focus is not None)
     assert window.session.state.focus.point == 7
     words = window.why._words.text()
     assert "27/48" in words
     assert "6/48" in words
     QTest.mouseMove(window.viewport.canvas, QPoint(5, 5))
-    assert window.session.state.focus is None
+    qtbot.waitUntil(lambda: window.session.state.focus is None)
     assert "Point at a vertex" in window.why._words.text()
 
 
