@@ -264,6 +264,14 @@ def test_on_a_regular_torus_the_distance_to_the_limit_falls_fourfold_a_level():
     assert abs(course.rate - 4) < 1e-9
 
 
+@pytest.mark.parametrize("values", [(), (0.3,), (0.0, 0.2), (0.2, 0.0), (1e-14, 0.2)])
+def test_a_course_from_nothing_or_to_nothing_has_no_rate_and_is_plotted(values, monkeypatch):
+    monkeypatch.setattr(distances, "to_limit", lambda _: distances.Course("Distance", values))
+    assert distances.Course("Distance", values).rate is None
+    shown = compose(lab("cube", distances=True)).panes[-1].content
+    assert not any(" a level" in note.text for note in shown.notes if note.y < distances.TALL)
+
+
 def test_the_plots_have_a_dot_for_every_level_and_say_their_rate():
     shown = compose(lab("triangle-torus", 3, distances=True)).panes[-1].content
     assert isinstance(shown, Diagram)

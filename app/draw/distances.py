@@ -44,7 +44,7 @@ class Course:
     @property
     def rate(self) -> float | None:
         """How many times smaller the last value is than the one before; None where that is not told."""
-        if len(self.values) < 2 or not self.values[-1] > LEAST:
+        if len(self.values) < 2 or not min(self.values[-2:]) > LEAST:
             return None
         return self.values[-2] / self.values[-1]
 

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Generator
-from functools import cache
+from functools import lru_cache
 
 from PySide6.QtCore import QByteArray, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QGuiApplication, QIcon, QPainter, QPalette, QPen, QPixmap
@@ -19,6 +19,9 @@ GRID = 8
 
 SCALES = (0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5)
 """How large the window can be."""
+
+ICONS = 64
+"""So many drawn icons are kept: those of all themes at one scale."""
 
 TWO_COLUMNS = 1.5
 """Up to this scale a menu that is too long for the screen has a second column; beyond it scrolls."""
@@ -224,7 +227,7 @@ def icon(name: str, theme_name: str) -> QIcon:
     return _icon(name, theme_name, tuple(sorted(sizes)))
 
 
-@cache
+@lru_cache(maxsize=ICONS)
 def _icon(name: str, theme_name: str, sizes: tuple[int, ...]) -> QIcon:
     theme = THEMES[theme_name]
     found = QIcon()
@@ -244,7 +247,7 @@ def drawn(svg: QSvgRenderer, size: int) -> QPixmap:
     painter = QPainter(pixmap)
     svg.render(painter, QRectF(0, 0, size, size))
     painter.end()
-    return pixmap
+    return pixmap.copy()  # without all that Qt keeps with what has been painted on
 
 
 def studio_icon() -> QIcon:

@@ -43,4 +43,4 @@ def _stamp(words: str, bold: bool, ink: Colour, halo: Colour | None, size: float
     with QPainter(image) as painter:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         type_(painter, Text(left, top, words, size, ink, bold=bold, halo=halo))
-    return image, left, top
+    return image.copy(), left, top  # without all that Qt keeps with what has been painted on

@@ -13,6 +13,7 @@ import traceback
 from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, suppress
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 from typing import Any, TextIO
@@ -50,6 +51,9 @@ PATIENCE = 180.0
 
 STALLED = 60.0
 """Seconds after which a step will never be over: the process is then ended where it is."""
+
+PLACES = 4
+"""Of the calls that the window was held up in, so many are kept: the last ones."""
 
 TOLD = 200
 """Actions between two lines about how it goes."""
@@ -216,6 +220,7 @@ class Run:
             self._watching.__exit__(None, None, None)
             self._watching = None
         for gap in self.dog.blocks():
+            gap = replace(gap, stack=gap.stack[-PLACES:])
             place = gap.stack or (gap.what,)
             worst, count = self._worst.get(place, (gap, 0))
             self._worst[place] = max(gap, worst, key=lambda each: each.excess), count + 1
