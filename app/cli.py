@@ -36,7 +36,7 @@ MOST_NAMES = 12
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command; 0 if all went well, 1 after a fault told in a sentence, 2 after a misuse."""
+    """Run one command; 0 if all went well, 1 after a fault told in a sentence, 2 after a misuse, else ``BUG``."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     speak(_wished(arguments) or system_language())
     parser, commands = _parsers()
@@ -77,13 +77,13 @@ def _unprinted(fault: OSError) -> int:
 
 def _bug() -> int:
     """Say that something is wrong inside the program; the traceback goes to the log."""
-    from app.log import LOG, keep_log
+    from app.log import BUG, LOG, keep_log
 
     log = keep_log()
     LOG.critical("uncaught", exc_info=True)
     sentence = tr(phrase("something went wrong inside the program; the details are in {log}", log=log))
     print(f"subdivision-studio: {sentence}", file=sys.stderr)
-    return 1
+    return BUG
 
 
 def _wished(arguments: Sequence[str]) -> str:

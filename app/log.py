@@ -8,6 +8,9 @@ from platformdirs import user_log_path
 
 LOG = logging.getLogger("studio")
 
+BUG = 70
+"""What a command ends with when something is wrong inside the program, as ``sysexits.h`` has it."""
+
 
 def keep_log() -> Path:
     """Start the log, where the system keeps such things; it never grows beyond three megabytes."""

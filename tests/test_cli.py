@@ -13,6 +13,7 @@ import pytest
 
 import lessons
 from app.cli import main
+from app.log import BUG
 from subdivision import Mesh, files, shapes, subdivide
 from subdivision.schemes import SCHEMES
 
@@ -222,7 +223,7 @@ def test_a_fault_of_our_own_is_a_sentence_for_the_user_and_a_traceback_for_the_l
         for handler in [h for h in root.handlers if h not in before]:
             root.removeHandler(handler)
             handler.close()
-    assert status == 1
+    assert status == BUG
     assert len(err.strip().splitlines()) == 1
     assert "ZeroDivisionError" in (tmp_path / "logs" / "studio.log").read_text(encoding="utf-8")
     assert "Traceback" not in err

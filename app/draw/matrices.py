@@ -5,7 +5,7 @@ factors, the last stage first, as they are written: M = M3 M2 M1.
 """
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -123,10 +123,11 @@ def _strip(x: float, y: float, width: int, row: int, theme: Theme) -> Box:
 def _marks(matrix: csr_array, at: tuple[float, float], stage: int, lit: Indices, theme: Theme) -> list[Box]:
     entries = matrix.tocoo()
     weights: Floats = np.abs(entries.data) / max(float(np.abs(entries.data).max()), 1e-300)
-    found = []
+    found, chosen = [], set(lit.tolist())
+    shade = cache(lambda ink, w: mixed(theme.background, ink, PALEST + (1 - PALEST) * w))
     for i, j, w in zip(entries.row.tolist(), entries.col.tolist(), weights.tolist(), strict=True):
-        ink = theme.selection if i in lit else theme.ink
-        fill = mixed(theme.background, ink, PALEST + (1 - PALEST) * w)
+        ink = theme.selection if i in chosen else theme.ink
+        fill = shade(ink, w)
         found.append(
             Box(at[0] + j + 0.5, at[1] + i + 0.5, ("",), fill, ink, fill, 0.86, 0.86, point=i, stage=stage, line=0.0)
         )

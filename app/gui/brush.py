@@ -44,7 +44,7 @@ def type_(painter: QPainter, text: Text) -> None:
     painter.setOpacity(text.opacity)
     path = glyphs(text.text, text.bold)
     if text.halo is not None:
-        pen = _pen(text.halo, RIM)
+        pen = QPen(_pen(text.halo, RIM))
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         painter.strokePath(path, pen)
     painter.fillPath(path, colour(text.colour))
@@ -107,6 +107,7 @@ def _plate(painter: QPainter, plate: Plate) -> None:
     painter.drawRoundedRect(QRectF(plate.x, plate.y, plate.width, plate.height), plate.radius, plate.radius)
 
 
+@lru_cache(maxsize=1024)
 def _pen(ink: Colour, width: float, opacity: float = 1.0, *, dashed: bool = False) -> QPen:
     pen = QPen(colour(ink, opacity), width)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap if dashed else Qt.PenCapStyle.RoundCap)

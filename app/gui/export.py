@@ -44,6 +44,9 @@ SIZES = {
 }
 PACES = {0.5: "Half as fast", 1.0: "As usual", 1.5: "Half as fast again", 2.0: "Twice as fast"}
 
+REFUSED = 1
+"""What a process ends with that has told in a sentence why it makes nothing."""
+
 GRACE = 4000
 """Milliseconds that a process is given to clear up after itself."""
 
@@ -234,7 +237,7 @@ class Exporter(QObject):
         elif status == 0:
             self._banner.tell(phrase("Exported {path}", path=self._out))
         else:
-            LOG.warning("export: %s", said)
+            LOG.log(logging.INFO if status == REFUSED else logging.WARNING, "export: %s", said)
             sentence = said.rpartition("\n")[2].removeprefix("subdivision-studio: ")
             told_why = phrase("{reason:sentence}", reason=sentence)
             self._banner.say(told_why if sentence else "The export failed; see the log.")

@@ -4,7 +4,6 @@ It contains a ``QtInteractor`` and sees all its input first.  VTK gets none of i
 ``Turn``, a value, so no hot key can fire and all panes stay linked.
 """
 
-from functools import partial
 from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer
@@ -64,7 +63,7 @@ class Viewport(QWidget):
         self.setMinimumSize(320, 240)
         self._session = session
         self._state = session.state
-        self._picture: Picture = faded(session.state)
+        self._made: Picture = faded(session.state)
         self._press: QPointF | None = None
         self._last = QPointF()
         self._kept = Kept()
@@ -89,6 +88,8 @@ class Viewport(QWidget):
         self._still.timeout.connect(self._show_in_full)
         self._pause = QTimer(self, singleShot=True, interval=PAUSE)
         self._pause.timeout.connect(session.let_go)
+        self._later = QTimer(self, singleShot=True, interval=0)
+        self._later.timeout.connect(self._catch_up)
         self._pull = QTimer(self, singleShot=True, interval=0)  # one move a picture, however many the mouse sends
         self._pull.timeout.connect(self._pulled)
 
@@ -141,26 +142,42 @@ class Viewport(QWidget):
     def show_state(self, state: State) -> None:
         before, self._state = self._state, state
         self.pointer.obey(state.options)
-        if is_turned_only(before, state):
-            self._look_again()
-            return
         if state.focus is None:
             self._is_pinned = False
-        if state.lesson is not before.lesson:
-            self._wait_a_turn()
-        self._compose(is_hasty=is_dragged_only(before, state) and is_heavy(state))
-        self.narration.show_state(state)
+        if state.lesson is not before.lesson and self._plotter is not None:
+            self.setUpdatesEnabled(False)
+            self._later.start()
+        elif self._later.isActive():
+            return  # this state is shown then
+        elif is_turned_only(before, state):
+            self._look_again()
+        else:
+            self._show(is_hasty=is_dragged_only(before, state) and is_heavy(state))
+
+    def _show(self, *, is_hasty: bool) -> None:
+        self._compose(is_hasty=is_hasty)
+        self.narration.show_state(self._state)
         self._arrange()
         self._paint_scenes()
 
-    def _wait_a_turn(self) -> None:
-        """Have the picture painted in the next turn of the event loop: to make a lesson's first one takes a turn."""
-        self.setUpdatesEnabled(False)
-        QTimer.singleShot(0, self, partial(self.setUpdatesEnabled, True))
+    def _catch_up(self) -> None:
+        """Show the state of the moment: a lesson's first one has a turn of the event loop of its own."""
+        self._later.stop()
+        try:
+            self._show(is_hasty=False)
+        finally:
+            self.setUpdatesEnabled(True)
+
+    @property
+    def _picture(self) -> Picture:
+        """The picture of the state."""
+        if self._later.isActive():
+            self._catch_up()
+        return self._made
 
     def _compose(self, *, is_hasty: bool) -> None:
         """The picture of the state; one made in haste lasts until the hand rests."""
-        self._picture, self._is_hasty = faded(self._state, is_hasty=is_hasty), is_hasty
+        self._made, self._is_hasty = faded(self._state, is_hasty=is_hasty), is_hasty
         if is_hasty:
             self._still.start()
         else:
