@@ -17,7 +17,8 @@ from app.draw.raster import image
 from app.draw.solid import CUBE
 from app.draw.surface import BRISK, SHOWS
 from app.draw.theme import THEMES
-from app.state import Options, at_stop, choose, forward, settle, start, stops, tick
+from app.laboratory import bench
+from app.state import Options, Spot, at_stop, choose, forward, settle, start, stops, tick
 from lessons.script import Lesson
 from subdivision import Role, Trace, continuity
 
@@ -153,3 +154,12 @@ def test_whatever_is_switched_on_together_anywhere_in_a_lesson_makes_a_picture_a
             light, dark = (compose(choose(each, theme=theme)) for theme in ("light", "dark"))
             assert light.panes, (state.lesson.id, state.beat, state.at, state.options)
             assert parts(light) == parts(dark), (state.lesson.id, state.beat, state.at, state.options)
+
+
+def test_a_picture_with_balls_beside_the_eye_is_drawn_without_opengl():
+    normal = Options(control=True, surface_shows="normals")
+    state = bench.set_levels(bench.take(bench.enter(start(lessons.find("14"), normal)), "quad-fan"), 1)
+    far = replace(state, edits=((24, (999999.0, 0.34, -0.12)),), focus=Spot(0, 0, 24))
+    pixels = image(compose(at_stop(far, stops(far.lesson)[3])), 480, 270, words=False, flat=True)
+    assert pixels.shape == (270, 480, 4)
+    assert len(np.unique(pixels.reshape(-1, 4), axis=0)) > 9

@@ -38,6 +38,9 @@ INCH = 72.0
 EMBEDDED = 3
 """Letters as drawings with their characters: of the typefaces here the kind that every reader shows alike."""
 
+FAR = 1e6
+"""Points: only balls beside the eye are so large or so far away, and matplotlib would walk round them for ever."""
+
 SHIPPED = f"{FAMILY} of the studio"
 
 _PLACE = re.compile(r"([ML])([-\d.]+) ([-\d.]+)")
@@ -169,8 +172,8 @@ def _outline(each: ElementTree.Element) -> Outline | None:
             corners = [tuple(map(float, corner.split(","))) for corner in each.get("points", "").split()]
             return Outline([*corners, corners[0]], closed=True)
         case "circle":
-            middle = float(each.get("cx", 0)), float(each.get("cy", 0))
-            return Outline.circle(middle, float(each.get("r", 0)))
+            x, y, radius = (float(each.get(name, 0)) for name in ("cx", "cy", "r"))
+            return Outline.circle((x, y), radius) if max(abs(x), abs(y), radius) < FAR else None
         case "path":
             return _stretches(each.get("d", ""))
     return None
