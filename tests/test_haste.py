@@ -5,8 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import pyvista
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from app.draw import vtk
+from app.draw.geometry import _parts
 from app.draw.picture import Camera, Faces, Scene
 from subdivision import Mesh, shapes, trace
 from subdivision.schemes import QUAD_CENTROID, TRIANGLE_CENTROID
@@ -109,3 +112,12 @@ def test_at_rest_nothing_is_left_out(plotter):
     assert not look.GetBackfaceCulling()
     painter.close()
     painter.renderer.RemoveAllViewProps()
+
+
+@pytest.mark.parametrize("links", [0, 40, 90, 400])
+def test_parts_are_those_of_the_graph(links):
+    ends, others = np.random.default_rng(links).integers(0, 100, (2, links))
+    graph = coo_array((np.ones(links), (ends, others)), (100, 100))
+    count, wanted = connected_components(graph, directed=False)
+    found = _parts(100, ends, others)
+    assert len(np.unique(found)) == count == len(np.unique(np.stack([found, wanted]), axis=1).T)

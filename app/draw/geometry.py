@@ -1,8 +1,6 @@
 """What painters share: polygons as shaded triangles, strokes as dashes."""
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from app.draw import regular
 from app.draw.picture import Faces, Lines
@@ -68,8 +66,23 @@ def shells(faces: Faces) -> Indices | None:
     along, back = n * walk + walk[follower], n * walk[follower] + walk
     if not np.array_equal(np.sort(along), np.sort(back)):
         return None
-    graph = coo_array((np.ones(len(walk)), (walk, walk[follower])), (n, n))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
+    return _parts(n, walk, walk[follower])
+
+
+def _parts(n: int, ends: Indices, others: Indices) -> Indices:
+    """(n,): the least of the points that each point is connected with, by links between ``ends`` and ``others``.
+
+    Written out: scipy's graphs take as long to load as some pictures take to draw.
+    """
+    part = np.arange(n)
+    while True:
+        least, found = np.minimum(part[ends], part[others]), part.copy()
+        np.minimum.at(found, part[ends], least)
+        np.minimum.at(found, part[others], least)
+        found = found[found]
+        if np.array_equal(found, part):
+            return part
+        part = found
 
 
 def is_outward(cut: Facets, shell: Indices) -> bool:
