@@ -49,6 +49,14 @@ def turned(rows: NDArray[Scalar], by: int) -> NDArray[Scalar]:
     return out
 
 
+def next_corners(sizes: Indices) -> Indices:
+    """(n_corners,): the corner after each, round its face, where faces of ``sizes`` corners lie end to end."""
+    start = np.cumsum(sizes) - sizes
+    after = np.arange(1, int(sizes.sum()) + 1)
+    after[start + sizes - 1] = start
+    return after
+
+
 def stable_order(key: Indices, below: int) -> Indices:
     """What sorts ``key``, (n,) int from 0 and ``below``, equal ones in their order; packed with places if they fit."""
     bits = len(key).bit_length()

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, Mask, columns, frozen, taken
+from subdivision.arrays import Floats, Indices, Mask, columns, frozen, next_corners, taken
 from subdivision.manifold import TopologyError, paired, require_faces
 from subdivision.words import phrase
 
@@ -130,9 +130,7 @@ class Topology:
         n = n_vertices if n_vertices is not None else int(origin.max(initial=-1)) + 1
         face = np.repeat(np.arange(len(sizes)), sizes)
         require_faces(sizes, origin, face, n)
-        next_ = np.arange(1, len(origin) + 1)
-        last = np.cumsum(sizes) - 1
-        next_[last] = last - sizes + 1
+        next_ = next_corners(sizes)
         twin, edge, ends = paired(origin, origin[next_], face, n)
         bare = cls(
             origin, next_, twin, edge, face, n,

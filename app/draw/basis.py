@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.script import Look
 from subdivision import Mesh, Polyline, Topology, TopologyError, Trace
-from subdivision.arrays import Floats
+from subdivision.arrays import Floats, next_corners
 
 HEIGHT = 0.42
 """What height 1 is in the picture, relative to the width of the graph."""
@@ -83,9 +83,8 @@ def _is_over_a_plane(control: Mesh) -> bool:
     if isinstance(t, Topology) and not t.boundary.any():
         return False
     start = np.cumsum(t.face_sizes) - t.face_sizes
-    follower = np.arange(len(t.origin)) + 1
-    follower[start + t.face_sizes - 1] = start
+    ahead = next_corners(t.face_sizes)
     x, y = control.points[t.origin, 0], control.points[t.origin, 1]
-    area = np.add.reduceat(x * y[follower] - x[follower] * y, start)
+    area = np.add.reduceat(x * y[ahead] - x[ahead] * y, start)
     least = 1e-9 * float(np.abs(area).max())
     return bool((area > least).all() or (area < -least).all())

@@ -5,7 +5,7 @@ import numpy as np
 from app.draw import regular
 from app.draw.picture import Faces, Lines
 from app.draw.regular import CREASED, SMOOTH, Facets
-from subdivision.arrays import Floats, Indices
+from subdivision.arrays import Floats, Indices, next_corners
 
 MANY = 256
 """From so many polygons on it is worth to know connectivity again."""
@@ -60,13 +60,10 @@ def shells(faces: Faces) -> Indices | None:
     It has neither where every edge is walked as often one way as the other.
     """
     walk, n = np.asarray(faces.corners, dtype=np.int64), len(faces.points)
-    start = np.cumsum(faces.sizes) - faces.sizes
-    follower = np.arange(1, len(walk) + 1)
-    follower[start + faces.sizes - 1] = start
-    along, back = n * walk + walk[follower], n * walk[follower] + walk
-    if not np.array_equal(np.sort(along), np.sort(back)):
+    ahead = walk[next_corners(faces.sizes)]
+    if not np.array_equal(np.sort(n * walk + ahead), np.sort(n * ahead + walk)):
         return None
-    return _parts(n, walk, walk[follower])
+    return _parts(n, walk, ahead)
 
 
 def _parts(n: int, ends: Indices, others: Indices) -> Indices:
@@ -140,10 +137,7 @@ def _walk(faces: Faces) -> tuple[Floats, Indices, Indices, Indices]:
     sizes = np.asarray(faces.sizes, dtype=np.intp)
     start = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
-    follower = np.arange(len(faces.corners)) + 1
-    ends = start + sizes
-    follower[ends - 1] = start
-    return np.asarray(faces.points, dtype=float)[faces.corners], start, follower, owner
+    return np.asarray(faces.points, dtype=float)[faces.corners], start, next_corners(sizes), owner
 
 
 def _unit(vectors: Floats) -> Floats:

@@ -9,7 +9,7 @@ from app.draw.theme import Theme, mixed
 from app.state import Picked, State
 from lessons.script import View
 from subdivision import Mesh, Polyline
-from subdivision.arrays import Indices, Mask
+from subdivision.arrays import Indices, Mask, next_corners
 
 PICKED = "picked"
 """The name of its markers."""
@@ -69,10 +69,8 @@ def _outlined(faces: Faces, theme: Theme) -> Lines:
     owner = np.repeat(np.arange(len(faces.sizes)), faces.sizes)
     corners = faces.points[faces.corners]
     middles = np.stack([np.bincount(owner, axis) for axis in corners.T], axis=1) / faces.sizes[:, None]
-    follower, ends = np.arange(1, len(corners) + 1), np.cumsum(faces.sizes)
-    follower[ends - 1] = ends - faces.sizes
     points = corners + INSET * (middles[owner] - corners)
-    pairs = np.stack([np.arange(len(corners)), follower], axis=1)
+    pairs = np.stack([np.arange(len(corners)), next_corners(faces.sizes)], axis=1)
     return Lines(points, pairs, faces.colour, WIDTH / 2 * theme.stroke)
 
 

@@ -164,6 +164,7 @@ class _Surface:
         self._faces: Faces | None = None
         self._known: Faces | None = None
         self._shells: Indices | None = None
+        self._is_outward: bool | None = None
         self._colours: Floats | None = None
         self._camera: Camera | None = None
         self._is_hasty = False
@@ -173,7 +174,7 @@ class _Surface:
     def show(self, faces: Faces, *, is_hasty: bool) -> None:
         cut = facets(faces, is_hasty=is_hasty)
         if cut is not self._shown:
-            self._shown = cut
+            self._shown, self._is_outward = cut, None
             self.data.SetPoints(vtk_arrays.points(cut.points))
             self.data.GetPointData().SetNormals(vtk_arrays.array(cut.normals))
         if cut.triangles is not self._cut:
@@ -217,12 +218,13 @@ class _Surface:
         if faces is None or cut is None or camera is None or faces.opacity < 1:
             return False
         if self._known is None or not _are_alike(faces, self._known):
-            self._known, self._shells = faces, shells(faces)
+            self._known, self._shells, self._is_outward = faces, shells(faces), None
         if self._shells is None:
             return False
+        if self._is_outward is None:
+            self._is_outward = is_outward(cut, self._shells)
         depth = (cut.points - camera.position) @ unit(camera.focal - camera.position)
-        is_in_front = bool(camera.scale > 0 or depth.min() > NEAR * depth.max())
-        return is_in_front and is_outward(cut, self._shells)
+        return self._is_outward and bool(camera.scale > 0 or depth.min() > NEAR * depth.max())
 
 
 def _are_alike(faces: Faces, others: Faces) -> bool:

@@ -12,15 +12,15 @@ from dataclasses import replace
 from functools import partial
 from typing import TypeAlias
 
-from PySide6.QtCore import QObject, QThreadPool, QTimer, Signal
+from PySide6.QtCore import QObject, QThreadPool, QTimer
 
 from app.draw.compose import compose
 from app.draw.layout import overlay
+from app.gui.chore import Chore
 from app.gui.narration import room
 from app.gui.session import Session
 from app.gui.viewport import Viewport
 from app.laboratory import bench
-from app.log import LOG
 from app.state import State, at_stop, open_lesson, segments, stops, valence_of
 from app.words import LANGUAGES, catalogue
 from lessons import built_in
@@ -49,7 +49,7 @@ class Ahead(QObject):
         super().__init__()
         self._session = session
         self._pieces = pieces(lambda: session.state, viewport)
-        self._job: _Job | None = None
+        self._chore: Chore | None = None
         self._quiet = QTimer(self, singleShot=True)
         self._quiet.timeout.connect(self._go_on)
 
@@ -71,15 +71,14 @@ class Ahead(QObject):
         self._quiet.start(QUIET)
 
     def _go_on(self) -> None:
-        if self._job is not None or self._session.state.is_playing:
+        if self._chore is not None or self._session.state.is_playing:
             return
         if (piece := next(self._pieces, None)) is not None:
-            self._job = _Job(piece)
-            self._job.told.over.connect(self._is_over)
-            QThreadPool.globalInstance().start(self._job)
+            self._chore = Chore("ahead", piece, self._is_over)  # what fails tells why when it is opened
+            self._chore.begin()
 
-    def _is_over(self) -> None:
-        self._job = None
+    def _is_over(self, _: object) -> None:
+        self._chore = None
         if not self._quiet.isActive():
             self._quiet.start(BETWEEN)
 
@@ -136,20 +135,3 @@ def _drawn(lesson: Lesson, step: int, state: State, viewport: Viewport, before: 
     at = max(there.at - before, there.now.start)
     if not before or any(view.kind is Kind.DIAGRAM for view in there.now.views):
         overlay(compose(replace(there, at=at)), *viewport.room(), words=False)
-
-
-class _Told(QObject):
-    over = Signal()
-
-
-class _Job:
-    def __init__(self, piece: Piece) -> None:
-        self.piece, self.told = piece, _Told()
-
-    def __call__(self) -> None:
-        try:
-            self.piece()
-        except Exception:  # what cannot be got ready tells why when it is opened
-            LOG.exception("ahead")
-        finally:
-            self.told.over.emit()

@@ -1,17 +1,18 @@
 """What comes next as a small picture, drawn in another thread: it appears a moment later and nothing waits for it."""
 
 from dataclasses import dataclass, fields, replace
+from functools import partial
 
-from PySide6.QtCore import QObject, QRectF, QSize, Qt, QThreadPool, QTimer, Signal
+from PySide6.QtCore import QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from app.draw.compose import compose
 from app.draw.picture import Picture, Scene
 from app.draw.theme import THEMES
+from app.gui.chore import Chore
 from app.gui.look import colour, line_of, px
 from app.gui.session import Session
-from app.log import LOG
 from app.state import State, choose, onward, settle
 from app.words import tr
 
@@ -47,7 +48,8 @@ class Preview(QWidget):
         self._session = session
         self._state = _plain(settle(session.state))
         self._kept: list[Drawn] = []
-        self._job: _Job | None = None
+        self._chore: Chore | None = None
+        self._wanted = Drawn(self._state, QSize())
         self._pause = QTimer(self, singleShot=True, interval=PAUSE)
         self._pause.timeout.connect(self._draw)
 
@@ -101,15 +103,16 @@ class Preview(QWidget):
     def _draw(self) -> None:
         """Draw what is missing, one after the other, while nothing moves."""
         state = self._session.state
-        if self._job is not None or not self.isVisible():
+        if self._chore is not None or not self.isVisible():
             return
         if state.is_playing and not state.wait:
             self._pause.start()
             return
         if (missing := self._missing()) is not None:
-            self._job = _Job(missing, self._pixels())
-            self._job.told.over.connect(self._is_drawn)
-            QThreadPool.globalInstance().start(self._job)
+            pixels = self._pixels()
+            self._wanted = Drawn(missing, pixels)
+            self._chore = Chore("preview", partial(drawn, missing, pixels), self._is_drawn)
+            self._chore.begin()
 
     def _missing(self) -> State | None:
         """The state after which nothing is drawn yet: this one, or the next."""
@@ -119,32 +122,12 @@ class Preview(QWidget):
         there = self._found(here.then) if here.then is not None else None
         return here.then if there is None or there.size != self._pixels() else None
 
-    def _is_drawn(self, made: Drawn) -> None:
-        self._job = None
-        self._kept = [*self._kept[1 - KEPT :], made]
+    def _is_drawn(self, made: object) -> None:
+        self._chore = None
+        drawn = made if isinstance(made, Drawn) else self._wanted  # the window itself tells why, when it comes to it
+        self._kept = [*self._kept[1 - KEPT :], drawn]
         self.update()
         self._pause.start()
-
-
-class _Told(QObject):
-    over = Signal(object)
-
-
-class _Job:
-    """Draws one picture."""
-
-    def __init__(self, state: State, size: QSize) -> None:
-        self.told = _Told()
-        self._state, self._size = state, size
-
-    def __call__(self) -> None:
-        made = Drawn(self._state, self._size)
-        try:
-            made = drawn(self._state, self._size)
-        except Exception:  # the window itself tells why, when it comes to it
-            LOG.exception("preview")
-        finally:
-            self.told.over.emit(made)
 
 
 def drawn(state: State, size: QSize) -> Drawn:

@@ -1,8 +1,11 @@
 """Work on the window's thread that would hold it up: a step in each turn of the event loop, and it answers between."""
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from typing import TypeVar
 
 from PySide6.QtCore import QObject, QTimer
+
+Made = TypeVar("Made")
 
 OVER = object()
 
@@ -43,3 +46,12 @@ class Turns(QObject):
                 self._steps = None
         if not is_over:
             self._timer.start()
+
+
+def ended(steps: Generator[object, None, Made]) -> Made:
+    """What comes of steps that are all done at once."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value

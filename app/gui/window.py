@@ -4,7 +4,7 @@ from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from PySide6.QtCore import QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import (
@@ -66,7 +66,7 @@ from app.gui.spectrum import Spectrum
 from app.gui.surface import Surface
 from app.gui.timeline import Timeline, tool_button
 from app.gui.tongue import speak_everywhere
-from app.gui.turns import Turns
+from app.gui.turns import Turns, ended
 from app.gui.viewport import Viewport
 from app.gui.why import Why
 from app.gui.worker import Worker
@@ -79,8 +79,6 @@ from app.sessions.strict import KeepingError
 from app.state import State, choose, pick
 from app.words import SYSTEM, language, system_language, tr
 from subdivision.words import phrase
-
-Made = TypeVar("Made")
 
 NAME = "Subdivision Studio"
 DRAWING = 500
@@ -553,11 +551,10 @@ class Window(QMainWindow):
         """Change the furniture for new at once."""
         self._turns.finish()
         with self._unseen():
-            for _ in self._furnishing():
-                pass
+            ended(self._furnishing())
             self._show(self.session.state)
 
-    def _furnishing(self) -> Iterator[None]:
+    def _furnishing(self) -> Generator[None, None, None]:
         """Change the furniture for new, for other words or another size."""
         options = self.session.state.options
         speak_everywhere(options.language)
@@ -816,12 +813,3 @@ class Window(QMainWindow):
         self.hide()
         self.darkroom.close()
         super().closeEvent(event)
-
-
-def ended(steps: Generator[object, None, Made]) -> Made:
-    """What comes of steps that are all done at once."""
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            return end.value
