@@ -57,6 +57,13 @@ def next_corners(sizes: Indices) -> Indices:
     return after
 
 
+def inverse(order: Indices) -> Indices:
+    """Where each number is in ``order``, which has all of 0, 1, 2, ... once."""
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return place
+
+
 def stable_order(key: Indices, below: int) -> Indices:
     """What sorts ``key``, (n,) int from 0 and ``below``, equal ones in their order; packed with places if they fit."""
     bits = len(key).bit_length()

@@ -293,8 +293,9 @@ def trace(
 def subdivide(control: Mesh, scheme: Scheme, levels: int, *, most: int | None = None) -> Mesh:
     """The mesh after ``levels`` steps; only the last level is kept.
 
-    Faces are numbered as by the stages; so are the vertices, unless there are more than some 20,000 faces:
-    ``Plan.numbers`` then says where each one is.  For the same mesh with moved points keep its ``plan``.
+    Faces are numbered as by the stages; so are the vertices, unless there are more than some 20,000 faces.  For the
+    same mesh with moved points keep its ``plan``, which numbers vertices in its own way: its ``numbers`` say where each
+    one is that the stages make.
 
     Raises
     ------

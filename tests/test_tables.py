@@ -13,6 +13,7 @@ from subdivision.arrays import Floats
 from subdivision.plans.kernels import Kernel, Rows
 from subdivision.plans.later import Later
 from subdivision.plans.mirrors import seen_mirrored
+from subdivision.plans.nearby import Nearby, nearby
 from subdivision.plans.sorted_faces import sorted_faces
 from subdivision.plans.tables import Tables
 from subdivision.plans.templates import descendants, template
@@ -23,11 +24,12 @@ PLANS, TABLES = (sys.modules[f"subdivision.plans.{name}"] for name in ("plan", "
 FAST = [scheme for scheme in SCHEMES if scheme.reach]
 QUADS, TRIANGLES = (["cube", "plus-sign", "quad-bipyramid", "quad-fan", "quad-sheet", "torus", "mug"],
                     ["tetrahedron", "octahedron", "bipyramid", "triangle-fan", "triangle-sheet", "triangle-torus"])
+Patch = pytest.MonkeyPatch
 schemes = pytest.mark.parametrize("scheme", FAST, ids=lambda s: s.name)
 
 
 @pytest.fixture
-def eager(monkeypatch: pytest.MonkeyPatch) -> None:
+def eager(monkeypatch: Patch) -> None:
     """Tables however small the mesh is."""
     for name, value in (("WORTH_TABLES", 0), ("SMALL", 0), ("FACES_A_KIND", 0.01), ("FINE_FACES_A_KIND", 0.01)):
         monkeypatch.setattr(PLANS, name, value)
@@ -90,6 +92,29 @@ def test_tables_make_the_points_of_the_stages(scheme: Scheme) -> None:
             assert isinstance(made.steps[-1], Tables)
             case = f"{name}, {levels} levels, the last {made.steps[-1].depth} at once"
             assert_same(made, made.apply(mesh.points), staged(mesh, scheme, levels), case)
+
+
+@schemes
+@pytest.mark.usefixtures("eager")
+def test_numbering_a_mesh_along_its_surface_first_moves_no_point(scheme: Scheme, monkeypatch: Patch) -> None:
+    monkeypatch.setattr(PLANS, "SCATTERED", 0)
+    some = shapes.icosahedron()
+    points = np.vstack([some.points, np.eye(3)])
+    lonely = "isolated vertices", Mesh(Topology.from_faces(some.surface.loops(), len(points)), points)
+    for name, mesh in (*meshes(scheme), *([lonely] if scheme.accepts(lonely[1].topology) else [])):
+        for levels in (1, 2, 3):
+            made = plan(mesh.topology, scheme, levels)
+            assert isinstance(made.steps[0], Nearby)
+            assert isinstance(made.steps[-1], Tables) == (levels == 3)
+            assert_same(made, made.apply(mesh.points), staged(mesh, scheme, levels), f"{name}, {levels} levels")
+
+
+def test_neighbours_are_near_in_memory() -> None:
+    mesh = subdivide(shapes.icosahedron(), LOOP, 4)
+    scattered = np.random.default_rng(4).permutation(mesh.topology.n_vertices)
+    t = Topology.from_faces([[int(scattered[v]) for v in loop] for loop in mesh.surface.loops()])
+    span, far = (np.abs(np.diff(x.ends)).max() for x in (nearby(t).topology, t))
+    assert span < 2 * np.sqrt(3 * t.n_vertices) < far / 10  # no more than the vertices on two rings round the middle
 
 
 @pytest.mark.usefixtures("eager")

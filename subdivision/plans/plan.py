@@ -7,6 +7,7 @@ butterfly, for each kind of triangle.  Interpolating quads are grids.  Schemes t
 and quads of open meshes, are told in stages, which all of this is tested against.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from typing import TypeAlias
@@ -14,7 +15,7 @@ from typing import TypeAlias
 import numpy as np
 
 from subdivision import refine
-from subdivision.arrays import Floats, Indices, frozen
+from subdivision.arrays import Floats, Indices, frozen, inverse
 from subdivision.meshes import as_mesh
 from subdivision.plans.butterfly_later import Butterfly, butterfly_after
 from subdivision.plans.butterfly_steps import Beside, butterfly_step
@@ -29,6 +30,7 @@ from subdivision.plans.later import Later, later
 from subdivision.plans.middle_steps import MiddleStep
 from subdivision.plans.middle_steps import Reach as MiddleReach
 from subdivision.plans.middle_tables import DEPTHS, MiddleTables, middle_tables
+from subdivision.plans.nearby import Nearby, nearby
 from subdivision.plans.tables import Tables, tables
 from subdivision.rows import Connectivity
 from subdivision.scheme import Scheme
@@ -44,11 +46,14 @@ WORTH_TABLES = 20_000
 FACES_A_KIND, FINE_FACES_A_KIND = 6, 2_000
 """What a kind of face must stand for on average, before and after, to be worth a table."""
 
+SCATTERED = 2_000
+"""Control points from where on it is worth, for points that are moved again, to number them along the mesh first."""
+
 SMALL, SMALL_ENOUGH = 16, 8_000
 """Control points, and points made of them, up to which one dense matrix is the fastest plan."""
 
 AnyStep: TypeAlias = (
-    Kernel | Later | CornerStep | Blocks | Grids | MiddleStep | MiddleTables | Butterfly | Rows | Step | Tables
+    Kernel | Later | CornerStep | Blocks | Grids | MiddleStep | MiddleTables | Butterfly | Rows | Step | Tables | Nearby
 )
 
 
@@ -64,11 +69,14 @@ class Plan:
         One after the other they make the points.
     whole : (n_vertices after, n_vertices before) float, optional
         The product of the steps, where that is small.
+    stages : () -> Topology, optional
+        Makes the outcome's with the vertices numbered as by the stages; None where they are.
     """
 
     topology: Connectivity
     steps: tuple[AnyStep, ...]
     whole: Floats | None = None
+    stages: Callable[[], Topology] | None = None
 
     def apply(self, points: Floats, out: Floats | None = None) -> Floats:
         """(n_vertices, d) float before -> (n_vertices, d) float after, into ``out`` if there is one.
@@ -93,10 +101,11 @@ class Plan:
     def numbers(self) -> Indices:
         """(n_vertices,) int: where the points are that the stages number 0, 1, 2, ..."""
         numbers = np.arange(self.topology.n_vertices)
-        if self.steps and isinstance(self.steps[-1], Tables | Blocks | Grids):
-            last = self.steps[-1]
-            stages = _refined(last) if isinstance(last, Tables) else last.refined()
-            numbers[stages.origin] = self.topology.origin
+        for near in self.steps[:1]:
+            if isinstance(near, Nearby):  # no half-edge tells where isolated vertices are
+                numbers[: len(near.vertices)] = inverse(near.vertices)
+        if self.stages is not None:
+            numbers[self.stages().origin] = self.topology.origin
         return frozen(numbers)
 
 
@@ -108,7 +117,7 @@ def plan(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     TopologyError
         If the scheme refuses the control object.
     """
-    laid_out = once(t, scheme, levels)
+    laid_out = _along(t, scheme, levels) or once(t, scheme, levels)
     if levels > 0 and t.n_vertices <= SMALL and laid_out.topology.n_vertices <= SMALL_ENOUGH:
         return replace(laid_out, whole=np.asfortranarray(laid_out.apply(np.eye(t.n_vertices))))
     return replace(laid_out, steps=tuple(map(_kept, laid_out.steps)))
@@ -125,7 +134,7 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     if isinstance(t, Topology) and scheme.beside:
         return _butterfly(t, scheme.beside, levels, scheme.faces_after(t, levels))
     if in_grids := _grids(t, scheme, levels):
-        return Plan(in_grids.topology, (in_grids,))
+        return Plan(in_grids.topology, (in_grids,), stages=in_grids.refined)
     if rule is None or not isinstance(t, Topology) or scheme.refinement is None:
         return _staged(t, scheme, levels)
     fine = scheme.refinement.faces(t, levels) if levels else 0
@@ -136,7 +145,7 @@ def once(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
         if steps and 1 < depth <= DEEPEST and fine > WORTH_TABLES:
             deep = tables(t, depth, rule, at_most=min(t.n_faces // FACES_A_KIND, fine // FINE_FACES_A_KIND))
             if deep:
-                return Plan(_renumbered(deep), (*steps, deep))
+                return _deep(steps, deep)
         steps.append(later(before, t, rule) if steps else kernel(t, rule))
         before, t = t, steps[-1].refined()
     return Plan(t, tuple(steps))
@@ -179,7 +188,7 @@ def _dual(t: Topology, scheme: Scheme, wave: Wave, numbering: Numbering, levels:
         steps.append(step := scheme.step(t))
         t = as_mesh(step.topology)
     if doublings > 1 and fine > WORTH_TABLES and (deep := blocks(t, wave, numbering, doublings - 1)):
-        return Plan(deep.topology, (*steps, CornerStep(t, wave, numbering), deep))
+        return Plan(deep.topology, (*steps, CornerStep(t, wave, numbering), deep), stages=deep.refined)
     for _ in range(doublings):
         steps.append(corner_step := CornerStep(t, wave, numbering))
         t = corner_step.topology
@@ -210,7 +219,7 @@ def _butterfly(t: Topology, beside: Beside, levels: int, fine: int) -> Plan:
             most = min(t.n_faces // FACES_A_KIND, fine // FINE_FACES_A_KIND)
             deep = butterfly_tables(t, depth, beside, most)
             if deep:
-                return Plan(_renumbered(deep), (*steps, step, deep))
+                return _deep([*steps, step], deep)
         steps.append(step)
         t = step.topology
     return Plan(t, tuple(steps))
@@ -231,19 +240,38 @@ def _staged(t: Connectivity, scheme: Scheme, levels: int) -> Plan:
     return Plan(t, tuple(steps))
 
 
-def _renumbered(deep: Tables) -> Topology:
-    """The outcome: as the stages make it, but for the numbers of the vertices."""
+def _deep(steps: Sequence[AnyStep], deep: Tables) -> Plan:
+    """Some steps, and all others at once."""
     size = deep.coarse.n_halfedges // deep.coarse.n_faces
-    refined = lru_cache(lambda: _refined(deep))
+    stages = lru_cache(partial(_refined, deep.coarse, size, deep.depth))
+    return Plan(_renumbered(stages, deep.coarse, deep.origin, size, deep.n_points), (*steps, deep), stages=stages)
+
+
+def _along(t: Connectivity, scheme: Scheme, levels: int) -> Plan | None:
+    """The plan for the mesh numbered along its surface; None where that is not worth while."""
+    rule = _rule(t, scheme)
+    if rule is None or not isinstance(t, Topology) or levels == 0 or t.n_vertices < SCATTERED:
+        return None
+    scheme.require(t)
+    near = nearby(t)
+    made = once(near.topology, scheme, levels)
+    origin = near.as_before(made.topology.origin, rule.size, levels)
+    stages = lru_cache(partial(_refined, t, rule.size, levels))
+    outcome = _renumbered(stages, t, origin, rule.size, made.topology.n_vertices)
+    return Plan(outcome, (near, *made.steps), stages=stages)
+
+
+def _renumbered(
+    stages: Callable[[], Topology], coarse: Topology, origin: Indices, size: int, n_vertices: int
+) -> Topology:
+    """What ``stages`` make of ``coarse``, but for the numbers of the vertices."""
     names = ("twin", "edge", "edge_sharpness", "vertex_sharpness", "hidden")
-    make = {name: partial(lambda name: getattr(refined(), name), name) for name in names}
-    return refine.deferred(deep.coarse, make, deep.origin, size, deep.n_points)
+    make = {name: partial(lambda name: getattr(stages(), name), name) for name in names}
+    return refine.deferred(coarse, make, origin, size, n_vertices)
 
 
-def _refined(deep: Tables) -> Topology:
-    """What the stages make of the mesh that ``deep`` begins with."""
-    t = deep.coarse
-    split = refine.quads if t.n_halfedges == 4 * t.n_faces else refine.triangles
-    for _ in range(deep.depth):
-        t = split(t)
+def _refined(t: Topology, size: int, levels: int) -> Topology:
+    """What the stages make of ``t``."""
+    for _ in range(levels):
+        t = refine.quads(t) if size == 4 else refine.triangles(t)
     return t
