@@ -39,6 +39,9 @@ from app.words import LANGUAGES, SYSTEM, speak, system_language
 from lessons import all_lessons
 from lessons.script import Lesson
 
+M_ARENA_MAX = -8
+"""From ``malloc.h``: how many such places there may be."""
+
 NO_SCREEN = (
     "there is no screen to open the window on (DISPLAY and WAYLAND_DISPLAY lead nowhere). "
     "'subdivision-studio figures' draws the lessons to files without one."
@@ -110,6 +113,7 @@ def application() -> QApplication:
     if isinstance(existing, QApplication):
         return existing
     prepare()
+    _share_memory()
     app = QApplication(sys.argv[:1])
     app.setApplicationName(NAME)
     app.setDesktopFileName("subdivision-studio")
@@ -133,6 +137,15 @@ def prepare() -> None:
     wanted.setSamples(0)  # VTK smooths in buffers of its own
     QSurfaceFormat.setDefaultFormat(wanted)
     # No AA_ShareOpenGLContexts: no widget moves to another window, and pyvistaqt would set off a warning with it.
+
+
+def _share_memory() -> None:
+    """Let all threads take memory from one place: where each has its own, glibc keeps there what its largest work took.
+
+    Elsewhere nothing is to be said.
+    """
+    with suppress(OSError, AttributeError):
+        ctypes.CDLL("libc.so.6").mallopt(M_ARENA_MAX, 1)
 
 
 def first_state(lesson: Lesson | None, step: int | None, theme: str, as_caption: bool) -> State:

@@ -185,7 +185,11 @@ def _chosen(hand: Hand, rng: Random, menu: QMenu) -> Steps:
     menu.popup(hand.window.mapToGlobal(QPoint(40, 30)))
     yield f"the menu {menu.title()}"
     quitting = hand.window.actions_by_id["quit"]
-    entry = rng.choice([a for a in menu.actions() if a.isEnabled() and not a.isSeparator() and a is not quitting])
+    entries = [a for a in menu.actions() if a.isEnabled() and not a.isSeparator() and a is not quitting]
+    if not entries:
+        menu.close()
+        return
+    entry = rng.choice(entries)
     if entry.menu() is not None:
         menu.close()
         yield from _chosen(hand, rng, entry.menu())

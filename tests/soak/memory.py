@@ -14,8 +14,11 @@ MOST = 30.0
 FEWEST = 5000
 """Actions: in a shorter run all that is kept for later is still being filled."""
 
-Sample = tuple[int, float]
-"""Actions done, megabytes."""
+ALIKE = 1.1
+"""Memory is compared where the picture is at most so much larger: several bytes go with each of its pixels."""
+
+Sample = tuple[int, float, int]
+"""Actions done, megabytes, pixels of the picture."""
 
 
 def resident() -> float:
@@ -32,13 +35,17 @@ def resident() -> float:
 
 
 def growth(samples: list[Sample]) -> float:
-    """Megabytes that the second half of a run has grown: the median slope of its pairs, over its length."""
+    """Megabytes that the second half of a run has grown: the median slope of its alike pairs, over its length."""
     half = [each for each in samples if each[0] >= samples[-1][0] / 2]
-    slopes = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in combinations(half, 2)]
+    slopes = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in combinations(half, 2) if _are_alike(a[2], b[2])]
     return median(slopes) * (half[-1][0] - half[0][0]) if slopes else 0.0
+
+
+def _are_alike(pixels: int, others: int) -> bool:
+    return max(pixels, others) <= ALIKE * min(pixels, others)
 
 
 def curve(samples: list[Sample], columns: int = 20) -> str:
     """So many samples of the run, in a row."""
     some = samples[:: max(len(samples) // columns, 1)]
-    return "  ".join(f"{count}: {megabytes:.0f}" for count, megabytes in some)
+    return "  ".join(f"{count}: {megabytes:.0f}" for count, megabytes, _ in some)

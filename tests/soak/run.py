@@ -147,7 +147,8 @@ class Run:
     def _measure(self, count: int) -> None:
         self.report["done"] = count
         if count % SAMPLE == 0 or count == len(self.actions):
-            self.report["memory"].append((count, resident()))
+            view = self.window.viewport
+            self.report["memory"].append((count, resident(), view.width() * view.height()))
         if count % TOLD == 0:
             seconds = time.perf_counter() - self._begun
             megabytes = self.report["memory"][-1][1]

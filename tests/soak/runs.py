@@ -26,7 +26,7 @@ class Report:
 
     faults: list[dict[str, str]]
     done: int = 0
-    memory: list[tuple[int, float]] = field(default_factory=list)
+    memory: list[tuple[int, float, int]] = field(default_factory=list)
     gaps: list[tuple[int, float, str, str]] = field(default_factory=list)
     kinds: dict[str, tuple[int, float, float]] = field(default_factory=dict)
     digests: dict[str, str] = field(default_factory=dict)
