@@ -2,7 +2,7 @@
 
 Telling a lesson and laying out its first picture for the first time take as long as some pictures; done before, they
 are remembered.
-Pieces are small and one at a time, in another thread; after any change there is a pause.
+Pieces are small and one at a time, in another thread, and panels in the window's; after any change there is a pause.
 """
 
 import gc
@@ -18,6 +18,7 @@ from app.draw.compose import compose
 from app.draw.layout import overlay
 from app.gui.chore import Chore
 from app.gui.narration import room
+from app.gui.parts import Late
 from app.gui.session import Session
 from app.gui.viewport import Viewport
 from app.laboratory import bench
@@ -47,7 +48,7 @@ class Ahead(QObject):
 
     def __init__(self, session: Session, viewport: Viewport) -> None:
         super().__init__()
-        self._session = session
+        self._session, self._window = session, viewport.window()
         self._pieces = pieces(lambda: session.state, viewport)
         self._chore: Chore | None = None
         self._quiet = QTimer(self, singleShot=True)
@@ -73,7 +74,10 @@ class Ahead(QObject):
     def _go_on(self) -> None:
         if self._chore is not None or self._session.state.is_playing:
             return
-        if (piece := next(self._pieces, None)) is not None:
+        if (panel := next((each for each in self._window.findChildren(Late) if not each.is_made), None)) is not None:
+            panel.need()
+            self._quiet.start(BETWEEN)
+        elif (piece := next(self._pieces, None)) is not None:
             self._chore = Chore("ahead", piece, self._is_over)  # what fails tells why when it is opened
             self._chore.begin()
 

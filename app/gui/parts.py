@@ -43,7 +43,7 @@ class Late(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._is_made = False
+        self.is_made = False
 
     def make(self) -> None:
         """Make the parts."""
@@ -51,13 +51,15 @@ class Late(QWidget):
 
     def need(self) -> None:
         """The parts are needed from now on."""
-        if not self._is_made:
-            self._is_made = True
+        if not self.is_made:
+            self.is_made = True
             self.make()
+            for part in self.findChildren(QWidget):
+                part.ensurePolished()
 
     def inherit(self, before: Self) -> None:
         """Have parts if the panel before had."""
-        if before._is_made:
+        if before.is_made:
             self.need()
 
 

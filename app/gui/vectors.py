@@ -113,7 +113,7 @@ class Vectors(Late):
     def inherit(self, before: Self) -> None:
         """Take over which point is ringed and which pass is chosen."""
         super().inherit(before)
-        if not before._is_made:
+        if not before.is_made:
             return
         self.lattice.ring = before.lattice.ring
         self.passes.setCurrentRow(before.passes.currentRow())

@@ -159,7 +159,7 @@ class Window(QMainWindow):
 
     def _show(self, state: State) -> None:
         for view in self._views:
-            with apart():  # a panel that fails keeps no other from showing the state
+            with apart(), self._guard.away():  # a panel that fails keeps no other from showing the state
                 view.show_state(state)
         for id_, action in self.actions_by_id.items():
             if (on := BY_ID[id_].on) is not None:

@@ -11,6 +11,7 @@ from app.draw.compose import compose
 from app.draw.layout import overlay
 from app.gui import ahead
 from app.gui.ahead import Ahead
+from app.gui.parts import Late
 from app.state import at_stop, open_lesson, stops
 
 pytestmark = pytest.mark.window
@@ -40,11 +41,14 @@ def test_what_was_got_ready_needs_no_formula_set_when_it_is_shown(window, monkey
                 overlay(compose(then), *window.viewport.room(), words=False)
 
 
-def test_lessons_are_told_while_the_window_rests(qtbot, window, monkeypatch):
+def test_lessons_are_told_and_panels_made_while_the_window_rests(qtbot, window, monkeypatch):
     told = tuple(map(afresh, FORMULAS))
     monkeypatch.setattr(ahead, "built_in", lambda: told)
     getting_ready = Ahead(window.session, window.viewport)
     getting_ready.begin()
+    panels = window.findChildren(Late)
     assert not any("beats" in vars(lesson) for lesson in told)
+    assert not all(panel.is_made for panel in panels)
     qtbot.waitUntil(lambda: all("beats" in vars(lesson) for lesson in told), timeout=20_000)
+    assert all(panel.is_made for panel in panels)
     getting_ready.stop()
