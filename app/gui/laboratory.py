@@ -1,6 +1,7 @@
 """The panel of the laboratory: the object on the table, and the rules that subdivide it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, Self
 
@@ -10,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVB
 from app.gui.banner import Banner
 from app.gui.choice import Choice
 from app.gui.look import GRID, px
-from app.gui.parts import Late, Section, column, emptied
+from app.gui.parts import Late, Section, column, taken_out
 from app.gui.session import Session
 from app.gui.stepper import Stepper
 from app.gui.vectors import Vectors
@@ -20,7 +21,7 @@ from app.laboratory.lab import MOST_LEVELS, MOST_PANES, Lab, Rule, titled
 from app.state import State
 from app.words import tr
 from subdivision import Boundary, Topology, TopologyError, shapes
-from subdivision.catalogue import FAMILIES, Family, Parameter, Value, suiting
+from subdivision.catalogue import FAMILIES, Parameter, Value, suiting
 from subdivision.words import phrase
 
 LIGHT = 6_000
@@ -96,7 +97,7 @@ class Laboratory(Late):
             return
         self.need()
         lab = state.lab
-        about = (lab.control, tuple(rule.family for rule in lab.rules))
+        about = (lab.control.topology, tuple(rule.family for rule in lab.rules))
         if about != self._about:
             self._about = about
             self._fill(lab)
@@ -110,14 +111,16 @@ class Laboratory(Late):
         self.vectors.show_state(state)
 
     def _fill(self, lab: Lab) -> None:
-        emptied(self._column)
-        families = suiting(lab.control.topology)
+        """A pane for every rule; those that would be as they are stay."""
+        families = tuple((each.title, each.name) for each in suiting(lab.control.topology))
         is_open = isinstance(lab.control.topology, Topology) and bool(lab.control.topology.boundary.any())
-        self.panes = [
-            Pane(k, rule, families, is_open, len(lab.rules) > 1, self.wish) for k, rule in enumerate(lab.rules)
-        ]
-        for pane in self.panes:
-            self._column.addWidget(pane)
+        offers = [Offer(k, rule.family, families, is_open, len(lab.rules) > 1) for k, rule in enumerate(lab.rules)]
+        before = {pane.offer: pane for pane in self.panes}
+        self.panes = [before.pop(offer) if offer in before else Pane(offer, self.wish) for offer in offers]
+        for pane in before.values():
+            taken_out(self._column, pane)
+        for k, pane in enumerate(self.panes):
+            self._column.insertWidget(k, pane)
 
     def _take(self, name: str) -> None:
         if name in shapes.SHAPES:
@@ -133,35 +136,38 @@ def _weight(lab: Lab | None) -> int:
     return lab.control.topology.n_vertices * 4 ** (lab.levels + 1) if lab is not None else 0
 
 
+@dataclass(frozen=True)
+class Offer:
+    """What pane ``number`` offers: the numbers of its ``family``, all ``families`` by title and name, and boundaries."""
+
+    number: int
+    family: str
+    families: tuple[tuple[str, str], ...]
+    is_open: bool
+    is_one_of_many: bool
+
+
 class Pane(QWidget):
     """The rule of one pane: scheme, its numbers, telling, boundary."""
 
-    def __init__(
-        self,
-        number: int,
-        rule: Rule,
-        families: Sequence[Family],
-        is_open: bool,
-        is_one_of_many: bool,
-        wish: Callable[..., None],
-    ) -> None:
+    def __init__(self, offer: Offer, wish: Callable[..., None]) -> None:
         super().__init__()
-        self._families = [(f.title, f.name) for f in families]
+        self.offer, number = offer, offer.number
         self.family = Choice("Scheme", partial(wish, bench.choose_family, number))
         self.parameters = [
             (p, Stepper(p.name, partial(wish, bench.turn_parameter, number, k)))
-            for k, p in enumerate(FAMILIES[rule.family].parameters)
+            for k, p in enumerate(FAMILIES[offer.family].parameters)
             if not p.is_vectors
         ]
         self.telling = Choice("Told", partial(wish, bench.choose_telling, number))
         self.boundary = Choice("Boundary", partial(wish, bench.choose_boundary, number))
-        self.boundary.setVisible(is_open)
+        self.boundary.setVisible(offer.is_open)
         self.until = Stepper("to level", partial(wish, bench.turn_until, number))
         self.until.setVisible(number > 0)
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.setSpacing(px(GRID / 2))
-        if is_one_of_many:
+        if offer.is_one_of_many:
             rows.addWidget(_numbered(number, partial(wish, bench.drop, number)))
         for part in (
             self.family,
@@ -175,7 +181,7 @@ class Pane(QWidget):
     def show_rule(self, rule: Rule, levels: int) -> None:
         until = min(rule.until or levels, levels)
         self.until.show_value(str(until), is_least=until <= 1, is_most=until >= levels)
-        self.family.show_values(self._families, rule.family)
+        self.family.show_values(self.offer.families, rule.family)
         values = {p.name: v for p, v in zip(FAMILIES[rule.family].parameters, rule.values, strict=True)}
         for parameter, stepper in self.parameters:
             _show_parameter(stepper, parameter, values[parameter.name])

@@ -122,7 +122,15 @@ def gap(height: int) -> QWidget:
 
 def emptied(layout: QVBoxLayout) -> None:
     """Take every part out of a column."""
-    while (item := layout.takeAt(0)) is not None:
+    while (item := layout.itemAt(0)) is not None:
         if (old := item.widget()) is not None:
-            old.hide()
-            old.deleteLater()
+            taken_out(layout, old)
+        else:
+            layout.takeAt(0)
+
+
+def taken_out(layout: QVBoxLayout, part: QWidget) -> None:
+    """Take one part out of a column."""
+    layout.removeWidget(part)
+    part.hide()
+    part.deleteLater()
