@@ -138,7 +138,7 @@ def _weight(lab: Lab | None) -> int:
 
 @dataclass(frozen=True)
 class Offer:
-    """What pane ``number`` offers: the numbers of its ``family``, all ``families`` by title and name, and boundaries."""
+    """What pane ``number`` offers: the numbers of its ``family``, all ``families`` by title and name, boundaries."""
 
     number: int
     family: str
