@@ -16,6 +16,7 @@ from tempfile import gettempdir
 os.environ.setdefault("QT_API", "pyside6")
 
 from app.gui.application import NO_SCREEN, has_screen
+from tests.gui.watchdog import LIMIT
 from tests.soak import memory
 from tests.soak.hand import Action, actions
 from tests.soak.runs import Report, kind, ran, shrunk
@@ -110,6 +111,7 @@ def table(report: Report) -> str:
         rows.append(f"{name:<12} {count:7d}  {1e3 * total / count:8.0f}  {1e3 * most:11.0f}")
     rows += ["", "times  excess  whole   busy  empty  while, and at"]
     rows += [f"{count:5d}  {said}" for count, _, _, said in report.gaps[:20]]
+    rows.append(f"in all {report.labours} times its own work held the window up for more than {1e3 * LIMIT:.0f} ms")
     rows += ["", f"megabytes   {memory.curve(report.memory)}"]
     rows.append(f"grown in the second half: {memory.growth(report.memory):.1f} MB")
     return "\n".join(rows)

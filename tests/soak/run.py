@@ -77,6 +77,7 @@ class Run:
         self.window.viewport._pause.timeout.disconnect()  # whether the wheel rested is for the hand to say
         self.report: dict[str, Any] = {
             "faults": [], "memory": [], "gaps": [], "digests": {}, "kinds": {}, "done": 0, "link": "",
+            "labours": 0,
         }  # fmt: skip
         self._before = self.session.state
         self._times: dict[str, list[float]] = defaultdict(list)
@@ -220,6 +221,7 @@ class Run:
         if self._watching is not None:
             self._watching.__exit__(None, None, None)
             self._watching = None
+        self.report["labours"] += len(self.dog.labours())
         for gap in self.dog.blocks():
             gap = replace(gap, stack=gap.stack[-PLACES:])
             place = gap.stack or (gap.what,)

@@ -22,7 +22,10 @@ STEPS = 40
 
 @dataclass(frozen=True)
 class Report:
-    """What came of a run: ``done`` actions are over, a link leads to where the next one began, the last steps."""
+    """What came of a run: ``done`` actions are over, a link leads to where the next one began, the last steps.
+
+    ``labours`` counts how often the window's thread itself computed longer than it may.
+    """
 
     faults: list[dict[str, str]]
     done: int = 0
@@ -31,6 +34,7 @@ class Report:
     kinds: dict[str, tuple[int, float, float]] = field(default_factory=dict)
     digests: dict[str, str] = field(default_factory=dict)
     link: str = ""
+    labours: int = 0
     steps: list[str] = field(default_factory=list)
 
 
