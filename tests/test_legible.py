@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import lessons
-from app.draw import labels
+from app.draw import places
 from app.draw.compose import compose
 from app.draw.layout import extent, fitted, overlay, pane_areas
-from app.draw.picture import Label, Scene
+from app.draw.picture import Scene
 from app.draw.primitives import Text
 from app.state import Options, at_stop, start, stops
 
@@ -56,17 +56,31 @@ def _least_height(boxes):
 @pytest.mark.parametrize("crowd", [0, 3, 40])
 def test_no_place_for_a_label_is_better_than_its_own(crowd):
     rng, area = np.random.default_rng(crowd), (10.0, 20.0, 600.0, 400.0)
-    for _ in range(50):
-        at = tuple(rng.uniform((10, 20), (610, 420)))
-        discs, strokes = rng.uniform(0, 600, (3 * crowd, 3)) * (1, 1, 0.05), rng.uniform(0, 600, (30 * crowd, 2))
-        taken = np.hstack([rng.uniform(0, 600, (crowd, 2)), rng.uniform(10, 200, (crowd, 2))])
-        label = Label(np.zeros(3), "12/64", (0.0, 0.0, 0.0), away=tuple(rng.choice((0.0, 14.0, -14.0), 2)))
-        box, off = labels._best(label, at, 20.0, 5.0, area, discs, strokes, taken)
-        costs = []
-        for places in labels._rounds(label.away):
-            each, _ = places.boxes(at, box[2], box[3], 5.0)
-            over = np.minimum(labels._inside(each, strokes), labels.MOST_OVER)
-            hard = labels._outside(each, area) + 4 * labels._overlaps(each, taken) + labels._covered(each, discs)
-            cost = places.price + labels.OVER * over + 1e3 * hard
-            costs += zip(cost, each[:, 0], each[:, 1], places.ring, strict=True)
-        assert min(costs)[1:] == (box[0], box[1], off)
+    discs, dots = rng.uniform(0, 600, (crowd, 3)) * (1, 1, 0.02), rng.uniform(0, 600, (10 * crowd, 2))
+    wishes = [
+        places.Wish(tuple(at), wide, 24.0, clear, tuple(away))
+        for at, wide, clear, away in zip(
+            rng.uniform((10, 20), (610, 420), (150, 2)), rng.uniform(20, 120, 150), rng.choice((0.0, 5.0), 150),
+            rng.choice((0.0, 14.0, -14.0), (150, 2)), strict=True,
+        )
+    ]  # fmt: skip
+    taken = np.zeros((0, 4))
+    for wish, own in zip(wishes, places.nearest(wishes, places.Ground(area, discs, dots)), strict=True):
+        left, top, off, cost, over = _weighed(wish, area, discs, dots, taken)
+        best = int(cost.argmin())
+        assert own == places.Place(left[best], top[best], off[best], over[best] == 0)
+        taken = np.vstack([taken, (own.left - 6, own.top, own.left + wish.wide + 6, own.top + 24)])
+
+
+def _weighed(wish, area, discs, dots, taken):
+    """Left, top and how far off are all places of a label; what each costs, and over how many others it is."""
+    round_it = places._places(wish.away, tuple(places.RINGS.tolist()))
+    left, top, *_ = (m[0] for m in round_it.corners([wish]))
+    low = np.stack([left, top], axis=1)[:, None]
+    high = low + np.array([wish.wide, wish.tall])
+    outside = ((low < area[:2]) | (high > np.add(area[:2], area[2:]))).any(axis=(1, 2))
+    over = ((low < taken[:, 2:]) & (high > taken[:, :2])).all(axis=2).sum(axis=1)
+    covered = (np.linalg.norm(np.clip(discs[:, :2], low, high) - discs[:, :2], axis=2) < discs[:, 2]).sum(axis=1)
+    crossed = ((low <= dots) & (dots <= high)).all(axis=2).sum(axis=1)
+    soft = round_it.price + places.OVER * np.minimum(crossed, places.MOST_OVER)
+    return left, top, round_it.ring, soft + 1e3 * (50 * outside + 4 * over + covered), over

@@ -5,42 +5,22 @@ must go further is tied to its point by a thin line.
 """
 
 from dataclasses import dataclass, field, replace
-from functools import cache
 from typing import TypeAlias
 
 import numpy as np
 
 from app.draw import pins
 from app.draw.picture import Camera, Label, Picture, Scene, Shape
+from app.draw.places import Ground, Point, Wish, nearest
 from app.draw.primitives import LEAST, Area, Primitive, Stroke, Text
 from app.draw.type import measure
 from subdivision.arrays import Floats
-
-DIRECTIONS = np.array([
-    (1, 1), (1, 0), (-1, 1), (-1, 0), (1, -1), (-1, -1), (0, 1), (0, -1),
-    (0.5, 1), (-0.5, 1), (1, 0.5), (-1, 0.5), (0.5, -1), (-0.5, -1), (1, -0.5), (-1, -0.5),
-])  # fmt: skip
-"""Right and up, in the order of preference."""
-
-RINGS = np.concatenate([np.arange(12) * 0.5, 6 + np.arange(14) * 2.0])
-"""How much further off each round of places is, in heights of the label."""
-
-ROUNDS = np.split(RINGS, [2, 8, 14])
-"""Near places are tried first, for mostly one of them is free."""
-
-NEARER = 3.0
-"""What it costs to be further off, for each height of the label."""
-
-OVER, MOST_OVER = 0.35, 8
-"""What it costs to lie over a place of a stroke, and how many of them count."""
 
 LEADER = 0.9
 """A label further off than this many of its heights needs a line to its point."""
 
 REACH = {Shape.SPHERE: 1.0, Shape.DIAMOND: 1.28, Shape.CUBE: 1.2, Shape.BEAD: 1.75, Shape.HALO: 1.75}
 """How far a marker reaches, relative to its radius."""
-
-Point: TypeAlias = tuple[float, float]
 
 Name: TypeAlias = tuple[Area, int, str]
 """A label's pane, number and words."""
@@ -105,10 +85,7 @@ def _along(there: list[Named], height: float, picture: Picture, kept: Kept) -> l
     found: list[Primitive] = []
     for name, label, (x, y) in there:
         (right, below), off = kept.beside[name]
-        size = max(label.size * picture.scale, LEAST) * unit
-        wide, up, down = measure(label.text, size)
-        box = np.array([x + right, y + below, wide, up + down])
-        found.extend(_drawn(label, (x, y), size, box, off, picture, unit))
+        found.extend(_drawn(label, (x, y), x + right, y + below, off, picture, unit))
     return found
 
 
@@ -125,27 +102,27 @@ def _placed(
 ) -> list[Primitive] | None:
     """The labels at the size of the picture's type; None: one lies over another, though none may."""
     unit = height / 1000
-    discs, strokes = _discs(scene, camera, area), _samples(scene, camera, area)
-    discs = np.vstack([discs, pins.discs(scene, camera, area, picture, height)])
-    around = _around(np.array([at for *_, at in there]).reshape(-1, 2), discs)
-    taken = np.zeros((len(there), 4))
+    discs = np.vstack([_discs(scene, camera, area), pins.discs(scene, camera, area, picture, height)])
+    ground = Ground(area, discs, _samples(scene, camera, area))
+    around = ground.around(np.array([at for *_, at in there]).reshape(-1, 2)).tolist()
+    wishes = [_wish(label, at, clear, picture, unit) for (_, label, at), clear in zip(there, around, strict=True)]
     found: list[Primitive] = []
-    for k, ((name, label, (x, y)), clear) in enumerate(zip(there, around, strict=True)):
-        size = max(label.size * picture.scale, LEAST) * unit
-        box, off = _best(label, (x, y), size, clear + _apart(label) * unit, area, discs, strokes, taken[:k])
-        if must_be_clear and _overlaps(box[None], taken[:k]).any():
+    for (name, label, (x, y)), place in zip(there, nearest(wishes, ground), strict=True):
+        if must_be_clear and not place.is_clear:
             return None
-        kept.beside[name] = (float(box[0]) - x, float(box[1]) - y), off
-        taken[k] = box + np.array([-0.25, 0, 0.5, 0]) * box[3]  # words side by side read as two
-        found.extend(_drawn(label, (x, y), size, box, off, picture, unit))
+        kept.beside[name] = (place.left - x, place.top - y), place.off
+        found.extend(_drawn(label, (x, y), place.left, place.top, place.off, picture, unit))
     return found
 
 
-def _around(points: Floats, discs: Floats) -> list[float]:
-    """For each point the radius of the largest marker it is in; 0: it is in none."""
-    far = np.hypot(points[:, None, 0] - discs[:, 0], points[:, None, 1] - discs[:, 1])
-    radii: list[float] = np.where(far < discs[:, 2], discs[:, 2], 0.0).max(axis=1, initial=0.0).tolist()
-    return radii
+def _size(label: Label, picture: Picture, unit: float) -> float:
+    return max(label.size * picture.scale, LEAST) * unit
+
+
+def _wish(label: Label, at: Point, clear: float, picture: Picture, unit: float) -> Wish:
+    """A label that keeps ``clear`` of its point, besides what it would like to be apart from it."""
+    wide, up, down = measure(label.text, _size(label, picture, unit))
+    return Wish(at, wide, up + down, clear + _apart(label) * unit, label.away)
 
 
 def _apart(label: Label) -> float:
@@ -153,76 +130,17 @@ def _apart(label: Label) -> float:
     return 0.5 * max(map(abs, label.away))
 
 
-def _best(
-    label: Label, at: Point, size: float, clear: float, area: Area, discs: Floats, strokes: Floats, taken: Floats
-) -> tuple[Floats, float]:
-    """The box (left, top, width, height) of the nearest place that is free, and how far off it is in heights."""
+def _drawn(
+    label: Label, at: Point, left: float, top: float, off: float, picture: Picture, unit: float
+) -> list[Primitive]:
+    """The words from a corner on, and the line that ties them to their point where they are far ``off``."""
+    size = _size(label, picture, unit)
     wide, up, down = measure(label.text, size)
     tall = up + down
-    least, found = np.inf, (np.zeros(4), 0.0)
-    for places in _rounds(label.away):
-        if least <= NEARER * places.ring[0]:
-            break  # whatever is further off costs more
-        boxes, room = places.boxes(at, wide, tall, clear)
-        marked = discs[(np.abs(discs[:, :2] - at) <= room + discs[:, 2:]).all(axis=1)]
-        hard = 1e3 * (_outside(boxes, area) + 4 * _overlaps(boxes, taken) + _covered(boxes, marked))
-        without = places.price + hard
-        likely = np.flatnonzero(without <= min(without.min() + OVER * MOST_OVER, least))  # no other can be the best
-        if not len(likely):
-            continue
-        cost = places.price[likely] + OVER * np.minimum(_inside(boxes[likely], strokes), MOST_OVER) + hard[likely]
-        best = int(np.argmin(cost))
-        if cost[best] < least:
-            least, found = float(cost[best]), (boxes[likely[best]], float(places.ring[likely[best]]))
-    return found
-
-
-@dataclass(frozen=True, eq=False)
-class _Places:
-    """Places round a point: ``ring`` (n,) heights of the label off, ``way`` (n, 2) right and down, ``price`` (n,).
-
-    ``part`` (n,) is how much of the room round the point they keep: on the diagonal a corner of the label touches the
-    marker, so it may come nearer than a side.
-    """
-
-    ring: Floats
-    way: Floats
-    part: Floats
-    price: Floats
-
-    def boxes(self, at: Point, wide: float, tall: float, clear: float) -> tuple[Floats, Floats]:
-        """(n, 4): left, top, width, height of a label there; and how far from the point any of them reaches."""
-        reach = clear * self.part + self.ring * tall
-        extent = np.array([wide, tall])
-        off = self.way * (reach[:, None] + np.array([wide, tall * 0.8]) / 2)
-        found = np.empty((len(off), 4))
-        found[:, :2], found[:, 2:] = np.array(at) + off - extent / 2, extent
-        return found, extent + float(reach.max())
-
-
-@cache
-def _rounds(away: tuple[float, float]) -> tuple[_Places, ...]:
-    """The places for labels that would like to be there, the near ones first."""
-    first = np.array(away) / max(*np.abs(away), 1e-9)
-    ways = np.vstack([first, DIRECTIONS]) if max(*np.abs(away)) else DIRECTIONS
-    found = []
-    for rings in ROUNDS:
-        ring, turn = (m.ravel() for m in np.meshgrid(rings, np.arange(len(ways)), indexing="ij"))
-        way = ways[turn]
-        part = np.where(np.abs(way).min(axis=1) > 0.3, 0.75, 1.0)
-        found.append(_Places(ring, way * [1, -1], part, ring * NEARER + turn * 0.12))
-    return tuple(found)
-
-
-def _drawn(
-    label: Label, at: Point, size: float, box: Floats, off: float, picture: Picture, unit: float
-) -> list[Primitive]:
-    _, up, _ = measure(label.text, size)
-    left, top, wide, tall = map(float, box)
     text = Text(left, top + up, label.text, size, label.colour, opacity=label.opacity, halo=picture.background)
     if off <= LEADER:
         return [text]
-    x, y = float(np.clip(at[0], left, left + wide)), float(np.clip(at[1], top, top + tall))
+    x, y = min(max(at[0], left), left + wide), min(max(at[1], top), top + tall)
     return [Stroke(at[0], at[1], x, y, label.colour, 1.4 * unit, 0.6 * label.opacity), text]
 
 
@@ -249,34 +167,3 @@ def _samples(scene: Scene, camera: Camera, area: Area) -> Floats:
     ends = [_flat(k.points[k.pairs].reshape(-1, 3), camera, area)[:, :2].reshape(-1, 2, 2) for k in scene.lines]
     both = np.concatenate([np.zeros((0, 2, 2)), *ends])
     return np.asarray(((1 - at) * both[:, 0] + at * both[:, 1]).reshape(-1, 2))
-
-
-def _outside(boxes: Floats, area: Area) -> Floats:
-    low, high = boxes[:, :2] - area[:2], np.array([area[0] + area[2], area[1] + area[3]]) - boxes[:, :2] - boxes[:, 2:]
-    return np.asarray(50.0 * (np.minimum(low, high).min(axis=1) < 0))
-
-
-def _overlaps(boxes: Floats, taken: Floats) -> Floats:
-    """(n,): how many of the taken boxes each box overlaps."""
-    far = boxes[:, :2] + boxes[:, 2:]
-    end = taken[:, :2] + taken[:, 2:]
-    meet = np.ones((len(boxes), len(taken)), dtype=bool)
-    for k in (0, 1):
-        meet &= (boxes[:, k, None] < end[:, k]) & (taken[:, k] < far[:, k, None])
-    return np.asarray(meet.sum(axis=1), dtype=float)
-
-
-def _covered(boxes: Floats, discs: Floats) -> Floats:
-    """(n,): how many markers each box covers, at least in part."""
-    far = boxes[:, :2] + boxes[:, 2:]
-    x, y = (np.clip(discs[:, k], boxes[:, k, None], far[:, k, None]) - discs[:, k] for k in (0, 1))
-    return np.asarray((x * x + y * y < discs[:, 2] ** 2).sum(axis=1), dtype=float)
-
-
-def _inside(boxes: Floats, points: Floats) -> Floats:
-    """(n,): how many of the points lie in each box."""
-    if not len(points):
-        return np.zeros(len(boxes))
-    x, y, wide, tall = (boxes[:, k, None] for k in range(4))
-    across, down = points[:, 0] - x, points[:, 1] - y
-    return np.asarray(((across >= 0) & (across <= wide) & (down >= 0) & (down <= tall)).sum(axis=1), dtype=float)

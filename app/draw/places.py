@@ -1,0 +1,240 @@
+"""Places for words round points: near, within their pane, over no marker and no other words, and off the strokes.
+
+Which places are free of what is drawn is found for many words at once; what they then take from one another, one
+after another.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import islice, pairwise
+from typing import TypeAlias
+
+import numpy as np
+
+from app.draw.primitives import Area
+from app.draw.scattered import scattered
+from subdivision.arrays import Floats, Indices, Mask
+
+DIRECTIONS = np.array([
+    (1, 1), (1, 0), (-1, 1), (-1, 0), (1, -1), (-1, -1), (0, 1), (0, -1),
+    (0.5, 1), (-0.5, 1), (1, 0.5), (-1, 0.5), (0.5, -1), (-0.5, -1), (1, -0.5), (-1, -0.5),
+])  # fmt: skip
+"""Right and up, in the order of preference."""
+
+RINGS = np.concatenate([np.arange(12) * 0.5, 6 + np.arange(14) * 2.0])
+"""How much further off each round of places is, in heights of the words."""
+
+ROUNDS = np.split(RINGS, [2, 8, 14])
+"""Near places are tried first, for mostly one of them is free."""
+
+AT_ONCE = (128, 8, 8, 8)
+"""For how many words each round is tried at once: for fewer, where the next ones may not come to it."""
+
+NEARER = 3.0
+"""What it costs to be further off, for each height of the words."""
+
+OVER, MOST_OVER = 0.35, 8
+"""What it costs to lie over a place of a stroke, and how many of them count."""
+
+COVERED, TAKEN, OUTSIDE = 1e3, 4e3, 5e4
+"""What each marker costs that is covered, at least in part; other words; to reach out of the pane."""
+
+APART = 0.25
+"""How far words side by side keep apart, in their heights: they read as two."""
+
+Point: TypeAlias = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Wish:
+    """Words of ``wide`` by ``tall`` pixels, ``clear`` of the point ``at``; ``away``, right and up, is liked best."""
+
+    at: Point
+    wide: float
+    tall: float
+    clear: float
+    away: Point
+
+
+@dataclass(frozen=True)
+class Place:
+    """The upper left corner of words, how far ``off`` they are in heights, and whether they lie over no others."""
+
+    left: float
+    top: float
+    off: float
+    is_clear: bool = True
+
+
+class Ground:
+    """What words keep off in a pane: ``discs`` (n, 3), centre and radius of its markers; ``dots`` (n, 2) of strokes."""
+
+    def __init__(self, area: Area, discs: Floats, dots: Floats) -> None:
+        self.area = area
+        centre, radius = discs[:, :2], discs[:, 2:]
+        low, high = np.array(area[:2]), np.add(area[:2], area[2:])
+        self._discs = discs[((centre + radius > low) & (centre - radius < high)).all(axis=1)]
+        self._most = float(self._discs[:, 2].max(initial=0.0))
+        self._centres = scattered(self._discs[:, :2], area)
+        self._dots = scattered(dots[((dots >= low) & (dots <= high)).all(axis=1)], area)
+
+    def around(self, points: Floats) -> Floats:
+        """For each point the radius of the largest marker it is in; 0: it is in none."""
+        x, y = points.T
+        owner, disc = self._centres.near(x - self._most, y - self._most, x + self._most, y + self._most)
+        off = self._discs[disc, :2] - points[owner]
+        radius = self._discs[disc, 2]
+        found = np.zeros(len(points))
+        is_in = np.hypot(off[:, 0], off[:, 1]) < radius
+        np.maximum.at(found, owner[is_in], radius[is_in])
+        return found
+
+    def outside(self, left: Floats, top: Floats, wide: Floats, tall: Floats) -> Mask:
+        """Which rooms reach out of the pane."""
+        x, y, w, h = self.area
+        return np.asarray((left < x) | (top < y) | (x + w - left - wide < 0) | (y + h - top - tall < 0))
+
+    def covered(self, left: Floats, top: Floats, wide: Floats, tall: Floats) -> Indices:
+        """(n,): how many markers each room covers, at least in part."""
+        most, right, bottom = self._most, left + wide, top + tall
+        room, disc = self._centres.near(left - most, top - most, right + most, bottom + most)
+        across, down, radius = self._discs[disc].T
+        x = np.minimum(np.maximum(across, left[room]), right[room]) - across
+        y = np.minimum(np.maximum(down, top[room]), bottom[room]) - down
+        return np.bincount(room[x * x + y * y < radius**2], minlength=len(left))
+
+    def over(self, left: Floats, top: Floats, wide: Floats, tall: Floats) -> Floats:
+        """(n,): what it costs each room to lie over strokes."""
+        room, dot = self._dots.near(left - 1, top - 1, left + wide + 1, top + tall + 1)
+        x, y = self._dots.at[dot, 0] - left[room], self._dots.at[dot, 1] - top[room]
+        is_in = (x >= 0) & (x <= wide[room]) & (y >= 0) & (y <= tall[room])
+        return OVER * np.minimum(np.bincount(room[is_in], minlength=len(left)), MOST_OVER)
+
+
+def nearest(wishes: Sequence[Wish], ground: Ground) -> Iterator[Place]:
+    """The places of the words, one after another: where there is a free one, the best of these."""
+    offers, taken = _Offers(wishes, ground), np.zeros((4, len(wishes)))
+    for k, wish in enumerate(wishes):
+        place = offers.best(k, taken[:, :k]) or _least_bad(wish, ground, taken[:, :k])
+        left, wide = place.left - APART * wish.tall, wish.wide + 2 * APART * wish.tall
+        taken[:, k] = left, place.top, left + wide, place.top + wish.tall
+        yield place
+
+
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Places round a point: ``ring`` (n,) heights of the words off, ``right`` and ``below``, with their ``price``.
+
+    ``part`` (n,) is how much of the room round the point they keep: on the diagonal a corner of the words touches the
+    marker, so it may come nearer than a side.
+    """
+
+    ring: Floats
+    right: Floats
+    below: Floats
+    part: Floats
+    price: Floats
+
+    def corners(self, wishes: Sequence[Wish]) -> tuple[Floats, Floats, Floats, Floats]:
+        """(n_wishes, n): left and top of the words at each place; (n_wishes, 1): their width and height."""
+        x, y, wide, tall, clear = np.array([(*w.at, w.wide, w.tall, w.clear) for w in wishes]).T[:, :, None]
+        reach = clear * self.part + self.ring * tall
+        left = x + self.right * (reach + wide / 2) - wide / 2
+        top = y + self.below * (reach + tall * 0.8 / 2) - tall / 2
+        return left, top, wide, tall
+
+
+@cache
+def _rounds(away: Point) -> tuple[_Places, ...]:
+    """The places for words that would like to be there, the near ones first."""
+    return tuple(_places(away, tuple(rings.tolist())) for rings in ROUNDS)
+
+
+@cache
+def _places(away: Point, rings: tuple[float, ...]) -> _Places:
+    first = np.array(away) / max(*np.abs(away), 1e-9)
+    ways = np.vstack([first, DIRECTIONS]) if max(*np.abs(away)) else DIRECTIONS
+    ring, turn = np.repeat(np.array(rings), len(ways)), np.tile(np.arange(len(ways)), len(rings))
+    way = ways[turn]
+    part = np.where(np.abs(way).min(axis=1) > 0.3, 0.75, 1.0)
+    return _Places(ring, way[:, 0], -way[:, 1], part, ring * NEARER + turn * 0.12)
+
+
+@dataclass(frozen=True, eq=False)
+class _Offer:
+    """Places (n,) that nothing drawn is under, and what they cost."""
+
+    left: Floats
+    top: Floats
+    ring: Floats
+    cost: Floats
+
+
+class _Offers:
+    """The places free of what is drawn, for all words; found for some of them at once, when the first needs them."""
+
+    def __init__(self, wishes: Sequence[Wish], ground: Ground) -> None:
+        self._wishes, self._ground = wishes, ground
+        self._found: dict[tuple[int, int], _Offer] = {}
+
+    def best(self, k: int, taken: Floats) -> Place | None:
+        """The best place for words number ``k`` that is over none of the ``taken`` (4, n) rooms, if any is."""
+        least, found, wish = np.inf, None, self._wishes[k]
+        for number, places in enumerate(_rounds(wish.away)):
+            if least <= NEARER * places.ring[0]:
+                break  # whatever is further off costs more
+            offer = self._of(number, k)
+            if not len(offer.cost):
+                continue
+            over = _meeting(offer.left, offer.top, wish.wide, wish.tall, taken)
+            cost = np.where(over, np.inf, offer.cost)
+            best = int(cost.argmin())
+            if cost[best] < least:
+                least = float(cost[best])
+                found = Place(float(offer.left[best]), float(offer.top[best]), float(offer.ring[best]))
+        return found
+
+    def _of(self, number: int, k: int) -> _Offer:
+        """What a round offers to words number ``k``."""
+        if (number, k) not in self._found:
+            away = self._wishes[k].away
+            alike = (j for j in range(k, len(self._wishes)) if self._wishes[j].away == away)
+            members = list(islice(alike, AT_ONCE[number]))
+            offers = _offered(_rounds(away)[number], [self._wishes[j] for j in members], self._ground)
+            self._found.update(((number, j), offer) for j, offer in zip(members, offers, strict=True))
+        return self._found.pop((number, k))
+
+
+def _offered(places: _Places, wishes: Sequence[Wish], ground: Ground) -> Iterator[_Offer]:
+    """What the same places offer to each of the words."""
+    left, top, wide, tall = places.corners(wishes)
+    who, which = np.nonzero(~ground.outside(left, top, wide, tall))
+    free = ground.covered(left[who, which], top[who, which], wide[who, 0], tall[who, 0]) == 0
+    who, which = who[free], which[free]
+    left, top = left[who, which], top[who, which]
+    cost = places.price[which] + ground.over(left, top, wide[who, 0], tall[who, 0])
+    ends = np.searchsorted(who, np.arange(len(wishes) + 1)).tolist()
+    for start, stop in pairwise(ends):
+        there = slice(start, stop)
+        yield _Offer(left[there], top[there], places.ring[which[there]], cost[there])
+
+
+def _least_bad(wish: Wish, ground: Ground, taken: Floats) -> Place:
+    """The best of all places where none is free."""
+    places = _places(wish.away, tuple(RINGS.tolist()))
+    left, top, wide, tall = (np.broadcast_to(m, (1, len(places.ring)))[0] for m in places.corners([wish]))
+    over = _meeting(left, top, wish.wide, wish.tall, taken)
+    hard = OUTSIDE * ground.outside(left, top, wide, tall)
+    hard += TAKEN * over + COVERED * ground.covered(left, top, wide, tall)
+    cost = places.price + ground.over(left, top, wide, tall) + hard
+    k = int(cost.argmin())
+    return Place(float(left[k]), float(top[k]), float(places.ring[k]), is_clear=not over[k])
+
+
+def _meeting(left: Floats, top: Floats, wide: float, tall: float, taken: Floats) -> Indices:
+    """(n,): how many of the ``taken`` (4, m) rooms are met by words with their corner at each place."""
+    right, bottom = left + wide, top + tall
+    near = (taken[0] < right.max()) & (taken[1] < bottom.max()) & (taken[2] > left.min()) & (taken[3] > top.min())
+    x0, y0, x1, y1 = taken[:, near, None]
+    return np.asarray(((left < x1) & (x0 < right) & (top < y1) & (y0 < bottom)).sum(axis=0))
