@@ -30,6 +30,10 @@ class Turns(QObject):
         self._steps = steps
         self._go_on()
 
+    def stop(self) -> None:
+        """Leave undone what is left."""
+        self._steps = None
+
     def finish(self) -> None:
         """Do all that is left at once."""
         while self.are_left:
