@@ -25,11 +25,14 @@ DIRECTIONS = np.array([
 RINGS = np.concatenate([np.arange(12) * 0.5, 6 + np.arange(14) * 2.0])
 """How much further off each round of places is, in heights of the words."""
 
-ROUNDS = np.split(RINGS, [2, 8, 14])
+ROUNDS = np.split(RINGS, [4, 14])
 """Near places are tried first, for mostly one of them is free."""
 
-AT_ONCE = (128, 8, 8, 8)
-"""For how many words each round is tried at once: for fewer, where the next ones may not come to it."""
+AT_ONCE = (64, 16, 16)
+"""For how many words each round is tried at once; for twice as many each time, as more of them come to it."""
+
+FIRST = 12
+"""So many of the best places are tried before all others."""
 
 NEARER = 3.0
 """What it costs to be further off, for each height of the words."""
@@ -44,6 +47,9 @@ APART = 0.25
 """How far words side by side keep apart, in their heights: they read as two."""
 
 Point: TypeAlias = tuple[float, float]
+
+Room: TypeAlias = tuple[Floats, Floats, Floats, Floats]
+"""Left, top, right and bottom."""
 
 
 @dataclass(frozen=True)
@@ -163,12 +169,13 @@ def _places(away: Point, rings: tuple[float, ...]) -> _Places:
 
 @dataclass(frozen=True, eq=False)
 class _Offer:
-    """Places (n,) that nothing drawn is under, and what they cost."""
+    """Places (n,) that nothing drawn is under, and what they cost, the best first; ``room`` holds all words there."""
 
     left: Floats
     top: Floats
     ring: Floats
     cost: Floats
+    room: Room
 
 
 class _Offers:
@@ -176,6 +183,7 @@ class _Offers:
 
     def __init__(self, wishes: Sequence[Wish], ground: Ground) -> None:
         self._wishes, self._ground = wishes, ground
+        self._at_once = list(AT_ONCE)
         self._found: dict[tuple[int, int], _Offer] = {}
 
     def best(self, k: int, taken: Floats) -> Place | None:
@@ -185,14 +193,15 @@ class _Offers:
             if least <= NEARER * places.ring[0]:
                 break  # whatever is further off costs more
             offer = self._of(number, k)
-            if not len(offer.cost):
-                continue
-            over = _meeting(offer.left, offer.top, wish.wide, wish.tall, taken)
-            cost = np.where(over, np.inf, offer.cost)
-            best = int(cost.argmin())
-            if cost[best] < least:
-                least = float(cost[best])
-                found = Place(float(offer.left[best]), float(offer.top[best]), float(offer.ring[best]))
+            n = int(offer.cost.searchsorted(least))
+            near = taken[:, _meeting(offer.room, taken)] if n else taken
+            for some in (slice(0, min(n, FIRST)), slice(FIRST, n)):
+                free = ~_over(offer.left[some], offer.top[some], wish, near).any(axis=0)
+                if free.any():
+                    best = some.start + int(free.argmax())
+                    least = float(offer.cost[best])
+                    found = Place(float(offer.left[best]), float(offer.top[best]), float(offer.ring[best]))
+                    break
         return found
 
     def _of(self, number: int, k: int) -> _Offer:
@@ -200,7 +209,8 @@ class _Offers:
         if (number, k) not in self._found:
             away = self._wishes[k].away
             alike = (j for j in range(k, len(self._wishes)) if self._wishes[j].away == away)
-            members = list(islice(alike, AT_ONCE[number]))
+            members = list(islice(alike, self._at_once[number]))
+            self._at_once[number] = min(2 * self._at_once[number], AT_ONCE[0])
             offers = _offered(_rounds(away)[number], [self._wishes[j] for j in members], self._ground)
             self._found.update(((number, j), offer) for j, offer in zip(members, offers, strict=True))
         return self._found.pop((number, k))
@@ -209,32 +219,40 @@ class _Offers:
 def _offered(places: _Places, wishes: Sequence[Wish], ground: Ground) -> Iterator[_Offer]:
     """What the same places offer to each of the words."""
     left, top, wide, tall = places.corners(wishes)
+    rooms = np.stack([left.min(axis=1), top.min(axis=1), (left + wide).max(axis=1), (top + tall).max(axis=1)], axis=1)
     who, which = np.nonzero(~ground.outside(left, top, wide, tall))
     free = ground.covered(left[who, which], top[who, which], wide[who, 0], tall[who, 0]) == 0
     who, which = who[free], which[free]
     left, top = left[who, which], top[who, which]
     cost = places.price[which] + ground.over(left, top, wide[who, 0], tall[who, 0])
+    order = np.lexsort((cost, who))
+    left, top, ring, cost = left[order], top[order], places.ring[which[order]], cost[order]
     ends = np.searchsorted(who, np.arange(len(wishes) + 1)).tolist()
-    for start, stop in pairwise(ends):
+    for (start, stop), (x0, y0, x1, y1) in zip(pairwise(ends), rooms, strict=True):
         there = slice(start, stop)
-        yield _Offer(left[there], top[there], places.ring[which[there]], cost[there])
+        yield _Offer(left[there], top[there], ring[there], cost[there], (x0, y0, x1, y1))
 
 
 def _least_bad(wish: Wish, ground: Ground, taken: Floats) -> Place:
     """The best of all places where none is free."""
     places = _places(wish.away, tuple(RINGS.tolist()))
     left, top, wide, tall = (np.broadcast_to(m, (1, len(places.ring)))[0] for m in places.corners([wish]))
-    over = _meeting(left, top, wish.wide, wish.tall, taken)
-    hard = OUTSIDE * ground.outside(left, top, wide, tall)
-    hard += TAKEN * over + COVERED * ground.covered(left, top, wide, tall)
-    cost = places.price + ground.over(left, top, wide, tall) + hard
-    k = int(cost.argmin())
-    return Place(float(left[k]), float(top[k]), float(places.ring[k]), is_clear=not over[k])
+    over = _over(left, top, wish, taken).sum(axis=0)
+    cost = places.price + OUTSIDE * ground.outside(left, top, wide, tall)
+    cost += TAKEN * over + COVERED * ground.covered(left, top, wide, tall)
+    likely = np.flatnonzero(cost <= cost.min() + OVER * MOST_OVER)
+    left, top, wide, tall = (m[likely] for m in (left, top, wide, tall))
+    best = int((cost[likely] + ground.over(left, top, wide, tall)).argmin())
+    k = likely[best]
+    return Place(float(left[best]), float(top[best]), float(places.ring[k]), is_clear=not over[k])
 
 
-def _meeting(left: Floats, top: Floats, wide: float, tall: float, taken: Floats) -> Indices:
-    """(n,): how many of the ``taken`` (4, m) rooms are met by words with their corner at each place."""
-    right, bottom = left + wide, top + tall
-    near = (taken[0] < right.max()) & (taken[1] < bottom.max()) & (taken[2] > left.min()) & (taken[3] > top.min())
-    x0, y0, x1, y1 = taken[:, near, None]
-    return np.asarray(((left < x1) & (x0 < right) & (top < y1) & (y0 < bottom)).sum(axis=0))
+def _over(left: Floats, top: Floats, wish: Wish, taken: Floats) -> Mask:
+    """(m, n): which of the ``taken`` (4, m) rooms words with their corner at each place are over."""
+    return _meeting((left, top, left + wish.wide, top + wish.tall), taken[:, :, None])
+
+
+def _meeting(room: Room, taken: Floats) -> Mask:
+    """Which of the ``taken`` (4, ...) rooms meet a room, or each its own."""
+    left, top, right, bottom = room
+    return np.asarray((left < taken[2]) & (taken[0] < right) & (top < taken[3]) & (taken[1] < bottom))

@@ -43,7 +43,7 @@ def scattered(at: Floats, area: Area) -> Scattered:
 
 def _cells(at: Floats, start: float, size: float) -> Indices:
     """In which column, or row, each of the coordinates is."""
-    return np.asarray(np.clip((at - start) * (CELLS / size), 0, CELLS - 1).astype(np.intp))
+    return np.minimum(np.maximum((at - start) * (CELLS / size), 0), CELLS - 1).astype(np.intp)
 
 
 def _all_from(start: Indices, stop: Indices) -> tuple[Indices, Indices]:
