@@ -81,14 +81,6 @@ class Flat(QWidget):
         """Whether everything that has been laid is painted, as carefully as at rest."""
         return (self._stale + self._rough).isEmpty() and not (self._haste.are_left or self._care.are_left)
 
-    def finish(self) -> None:
-        """Paint all that is left at once, as carefully as at rest."""
-        self._renew()
-        while self._haste.are_left or self._care.are_left:
-            self._haste.finish()
-            self._renew()
-            self._care.finish()
-
     def paintEvent(self, event: QPaintEvent) -> None:
         self._below()
         self._renew()

@@ -79,6 +79,5 @@ def test_changes_while_it_is_painted_are_not_lost(sheet, qtbot):
         sheet.lay(list(shown))
         sheet.grab()  # in the middle of what is being painted
     sheet.resize(470, 350)
-    sheet.finish()
-    assert sheet.is_done
+    qtbot.waitUntil(lambda: sheet.is_done)
     assert looks(sheet) == on_paper(painted_at_once(sheet.size(), shown), looks(sheet), sheet)
