@@ -43,6 +43,9 @@ OVER, MOST_OVER = 0.35, 8
 COVERED, TAKEN, OUTSIDE = 1e3, 4e3, 5e4
 """What each marker costs that is covered, at least in part; other words; to reach out of the pane."""
 
+LARGE = 0.125
+"""A marker is large with this part of its pane's height as radius, as just before the eye."""
+
 APART = 0.25
 """How far words side by side keep apart, in their heights: they read as two."""
 
@@ -80,15 +83,17 @@ class Ground:
         self.area = area
         centre, radius = discs[:, :2], discs[:, 2:]
         low, high = np.array(area[:2]), np.add(area[:2], area[2:])
-        self._discs = discs[((centre + radius > low) & (centre - radius < high)).all(axis=1)]
-        self._most = float(self._discs[:, 2].max(initial=0.0))
-        self._centres = scattered(self._discs[:, :2], area)
+        seen = discs[((centre + radius > low) & (centre - radius < high)).all(axis=1)]
+        self._discs = seen[np.argsort(seen[:, 2], kind="stable")]
+        self._n_small = int(np.searchsorted(self._discs[:, 2], LARGE * area[3]))
+        self._most = float(self._discs[: self._n_small, 2].max(initial=0.0))
+        self._centres = scattered(self._discs[: self._n_small, :2], area)
         self._dots = scattered(dots[((dots >= low) & (dots <= high)).all(axis=1)], area)
 
     def around(self, points: Floats) -> Floats:
         """For each point the radius of the largest marker it is in; 0: it is in none."""
         x, y = points.T
-        owner, disc = self._centres.near(x - self._most, y - self._most, x + self._most, y + self._most)
+        owner, disc = self._near(x, y, x, y)
         off = self._discs[disc, :2] - points[owner]
         radius = self._discs[disc, 2]
         found = np.zeros(len(points))
@@ -103,12 +108,21 @@ class Ground:
 
     def covered(self, left: Floats, top: Floats, wide: Floats, tall: Floats) -> Indices:
         """(n,): how many markers each room covers, at least in part."""
-        most, right, bottom = self._most, left + wide, top + tall
-        room, disc = self._centres.near(left - most, top - most, right + most, bottom + most)
+        right, bottom = left + wide, top + tall
+        room, disc = self._near(left, top, right, bottom)
         across, down, radius = self._discs[disc].T
         x = np.minimum(np.maximum(across, left[room]), right[room]) - across
         y = np.minimum(np.maximum(down, top[room]), bottom[room]) - down
         return np.bincount(room[x * x + y * y < radius**2], minlength=len(left))
+
+    def _near(self, left: Floats, top: Floats, right: Floats, bottom: Floats) -> tuple[Indices, Indices]:
+        """Pairs of a room and a marker that may reach it: the large ones may reach all."""
+        most, n_large = self._most, len(self._discs) - self._n_small
+        room, disc = self._centres.near(left - most, top - most, right + most, bottom + most)
+        if n_large:
+            any_room, large = np.divmod(np.arange(len(left) * n_large), n_large)
+            room, disc = np.concatenate([room, any_room]), np.concatenate([disc, large + self._n_small])
+        return room, disc
 
     def over(self, left: Floats, top: Floats, wide: Floats, tall: Floats) -> Floats:
         """(n,): what it costs each room to lie over strokes."""
