@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage, QPainter, QPixmap
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.draw.primitives import Plate, Primitive, Stroke, Text
 from app.gui import flat
@@ -33,7 +33,8 @@ def painted_at_once(size, shown) -> QImage:
 
 
 @pytest.fixture
-def sheet(qtbot):
+def sheet(qtbot, monkeypatch):
+    monkeypatch.setattr(flat, "SLICE", 1e-4)  # many turns, however fast the machine is
     holder = QWidget()
     qtbot.addWidget(holder)
     holder.resize(480, 360)
@@ -75,9 +76,14 @@ def test_much_is_painted_over_turns_and_in_the_end_as_if_at_once(sheet, qtbot):
 def test_changes_while_it_is_painted_are_not_lost(sheet, qtbot):
     shown = crowd()
     for k in range(8):
-        shown[3 * k + 2] = replace(shown[3 * k + 2], text=f"now {k}")
+        shown[21 * k + 2] = replace(shown[21 * k + 2], text=f"now {k}")
         sheet.lay(list(shown))
-        sheet.grab()  # in the middle of what is being painted
+        sheet.grab()
+        for _ in range(5 * k):  # now in the middle of painting in haste, now of painting with care
+            QApplication.processEvents()
+        assert not sheet.is_done
+    qtbot.waitUntil(lambda: sheet.is_done)
+    assert looks(sheet) == on_paper(painted_at_once(sheet.size(), shown), looks(sheet), sheet)
     sheet.resize(470, 350)
     qtbot.waitUntil(lambda: sheet.is_done)
     assert looks(sheet) == on_paper(painted_at_once(sheet.size(), shown), looks(sheet), sheet)
