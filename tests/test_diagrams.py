@@ -15,11 +15,12 @@ import pytest
 import lessons
 from app.draw.compose import compose
 from app.draw.diagrams import BLANK, DIM, GLOW, LINE, NONE, diagram, lights
-from app.draw.layout import extent, overlay, part_at
+from app.draw.layout import overlay, part_at
 from app.draw.markup import code
 from app.draw.picture import Box, Diagram, Pane, Picture
 from app.draw.primitives import LEAST, Plate, Primitive, Stroke, Text
 from app.draw.theme import THEMES
+from app.draw.type import extent
 from app.state import Options, Spot, State, at_stop, look, seek, segments, start, stops
 from lessons.script import Kind, Lesson, View
 from subdivision import Grid, Trace, shapes, trace

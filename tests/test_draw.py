@@ -15,13 +15,13 @@ from app.draw.compose import compose, said
 from app.draw.depth import depth_of
 from app.draw.geometry import dashes, facets, normals
 from app.draw.labels import Kept, placed
-from app.draw.layout import extent, fitted, overlay, pane_areas
+from app.draw.layout import fitted, overlay, pane_areas
 from app.draw.letters import END, _shaped, letters
 from app.draw.picture import Box, Camera, Diagram, Faces, Label, Lines, Markers, Pane, Picture, Scene, Shape
 from app.draw.primitives import LEAST, Mark, Plate, Text
 from app.draw.raster import image
 from app.draw.solid import CUBE, OCTAHEDRON
-from app.draw.type import measure, outline, runs, wrapped
+from app.draw.type import extent, measure, outline, runs, wrapped
 from app.draw.vector import svg
 from app.state import Options, at_stop, start, stops
 from tests.type import met

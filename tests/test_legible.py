@@ -1,14 +1,17 @@
 """From the back row: on every picture of every lesson type is large, whole, apart, and covers no point."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import lessons
 from app.draw import places
 from app.draw.compose import compose
-from app.draw.layout import extent, fitted, overlay, pane_areas
+from app.draw.layout import fitted, overlay, pane_areas
 from app.draw.picture import Scene
 from app.draw.primitives import Text
+from app.draw.type import extent
 from app.state import Options, at_stop, start, stops
 
 SLACK = 1.0
@@ -65,8 +68,9 @@ def test_no_place_for_a_label_is_better_than_its_own(crowd):
             rng.choice((0.0, 14.0, -14.0), (150, 2)), strict=True,
         )
     ]  # fmt: skip
-    taken = np.zeros((0, 4))
-    for wish, own in zip(wishes, places.nearest(wishes, places.Ground(area, discs, dots)), strict=True):
+    left, top = rng.uniform(20, 380, (2, crowd // 3))
+    taken = np.stack([left, top, left + 90, top + 20], axis=1)  # of something else
+    for wish, own in zip(wishes, places.nearest(wishes, places.Ground(area, discs, dots, taken.T)), strict=True):
         left, top, off, cost, over = _weighed(wish, area, discs, dots, taken)
         best = int(cost.argmin())
         assert own == places.Place(left[best], top[best], off[best], over[best] == 0)
@@ -85,3 +89,21 @@ def _weighed(wish, area, discs, dots, taken):
     crossed = ((low <= dots) & (dots <= high)).all(axis=2).sum(axis=1)
     soft = round_it.price + places.OVER * np.minimum(crossed, places.MOST_OVER)
     return left, top, round_it.ring, soft + 1e3 * (50 * outside + 4 * over + covered), over
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (1920, 1080)])
+@pytest.mark.parametrize(
+    ("lesson", "at"), [("figure_07_three_direction_quartic", 2.0), ("exercise_1a_either_order", 3.0)]
+)
+def test_labels_and_what_is_said_of_a_limit_keep_off_the_bar_of_colours(lesson, at, size):
+    options = Options(valences=True, limit=True, surface_shows="mean curvature")
+    picture = compose(replace(start(lessons.find(lesson), options), at=at))
+    (bar,) = (p.content.bar for p in picture.panes if isinstance(p.content, Scene) and p.content.bar is not None)
+    on_it = {bar.title, *(text for _, text in bar.ticks)}
+    texts = [each for each in overlay(picture, *size) if isinstance(each, Text) and each.halo is not None]
+    boxes = {own: np.array([extent(each) for each in texts if (each.text in on_it) == own]) for own in (True, False)}
+    low, high = boxes[True][:, :2].min(axis=0), (boxes[True][:, :2] + boxes[True][:, 2:]).max(axis=0)
+    others = boxes[False]
+    is_over = ((others[:, :2] < high - SLACK) & (others[:, :2] + others[:, 2:] > low + SLACK)).all(axis=1)
+    assert len(others) > 30
+    assert not is_over.any()

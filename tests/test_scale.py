@@ -10,10 +10,11 @@ import pytest
 import app
 import lessons
 from app.draw.compose import compose
-from app.draw.layout import ROOM, extent, overlay, pane_areas
+from app.draw.layout import ROOM, overlay, pane_areas
 from app.draw.picture import Scene
 from app.draw.primitives import LEAST, Text
 from app.draw.theme import THEMES
+from app.draw.type import extent
 from app.sessions import keeping, link
 from app.state import Options, choose, last, start
 

@@ -1,8 +1,14 @@
 """The bar that says what colours stand for, and the sentence of a scene: flat, over the pane, where there is room."""
 
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
 from app.draw.picture import Bar, Camera, Picture, Scene
 from app.draw.primitives import LEAST, Area, Plate, Primitive, Text
-from app.draw.type import measure, wrapped
+from app.draw.type import extent, measure, wrapped
+from subdivision.arrays import Floats
 
 NUMBER, TITLE, REMARK = 23.0, 24.0, 25.0
 """Sizes of type in logical points."""
@@ -16,17 +22,37 @@ PART = 0.62
 LINE = 1.3
 
 
-def drawn(scene: Scene, camera: Camera, area: Area, picture: Picture, height: float) -> list[Primitive]:
-    """Bar and sentence of a scene in its pane."""
+def drawn(scene: Scene, camera: Camera, area: Area, picture: Picture, height: float) -> list[list[Primitive]]:
+    """Bar and sentence of a scene in its pane, each if there is one; the sentence stands above a bar at the foot."""
     unit = height / 1000
-    found: list[Primitive] = []
+    found: list[list[Primitive]] = []
     if scene.bar is not None:
         beside = (area[2] - camera.aspect * area[3]) / 2
         place = _upright if beside > _needed(scene.bar, picture, unit) else _lying
-        found.extend(place(scene.bar, area, picture, unit))
+        found.append(place(scene.bar, area, picture, unit))
     if scene.remark:
-        found.extend(_remark(scene.remark, area, picture, unit))
+        remark = _remark(scene.remark, area, picture, unit)
+        over = _over(rooms([remark])[:, 0], rooms(found))
+        found.append([replace(line, y=line.y - over) for line in remark])
     return found
+
+
+def rooms(flat: Sequence[Sequence[Primitive]]) -> Floats:
+    """(4, n): left, top, right and bottom of the words and plates of each."""
+    found = np.zeros((4, len(flat)))
+    for k, each in enumerate(flat):
+        boxes = [extent(x) if isinstance(x, Text) else (x.x, x.y, x.width, x.height)
+                 for x in each if isinstance(x, Text | Plate)]  # fmt: skip
+        left, top, wide, tall = np.array(boxes).T
+        found[:, k] = left.min(), top.min(), (left + wide).max(), (top + tall).max()
+    return found
+
+
+def _over(room: Floats, others: Floats) -> float:
+    """How far up a room must go to be above all that it meets."""
+    left, top, right, bottom = others
+    meets = (left < room[2]) & (right > room[0]) & (bottom > room[1]) & (top < room[3])
+    return float((room[3] - top[meets]).max(initial=0.0))
 
 
 def _needed(bar: Bar, picture: Picture, unit: float) -> float:
@@ -84,7 +110,7 @@ def _frame(x: float, y: float, width: float, height: float, picture: Picture, un
     return Plate(x, y, width, height, None, picture.muted, 1.2 * unit * picture.stroke)
 
 
-def _remark(words: str, area: Area, picture: Picture, unit: float) -> list[Primitive]:
+def _remark(words: str, area: Area, picture: Picture, unit: float) -> list[Text]:
     """At the foot of the pane."""
     size = _type(REMARK, picture) * unit
     lines = _lines(words, size, area[2] - 2 * MARGIN * unit)

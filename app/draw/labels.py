@@ -32,6 +32,10 @@ FEW = 400
 """Up to so many strokes, labels try to keep off them."""
 
 
+NOTHING = np.zeros((4, 0))
+"""No rooms."""
+
+
 @dataclass(frozen=True, eq=False)
 class Kept:
     """Where labels stand beside their points, filled as they are placed: given again, they go along with these.
@@ -45,10 +49,17 @@ class Kept:
 
 
 def placed(
-    scene: Scene, camera: Camera, area: Area, height: float, picture: Picture, kept: Kept | None = None
+    scene: Scene,
+    camera: Camera,
+    area: Area,
+    height: float,
+    picture: Picture,
+    kept: Kept | None = None,
+    rooms: Floats = NOTHING,
 ) -> list[Primitive]:
     """The labels of a scene in its pane, the largest placed first; enlarged as far as none then covers another.
 
+    They keep off ``rooms``, (4, n): left, top, right and bottom.
     Where all of them are ``kept`` they go along with their points.
     """
     if not scene.labels:
@@ -68,7 +79,7 @@ def placed(
             kept.growth[area] = growth
             is_last = growth == 1.0
             found = _placed(
-                there, scene, camera, area, height, _grown(picture, growth), kept, must_be_clear=not is_last
+                there, scene, camera, area, height, _grown(picture, growth), kept, rooms, must_be_clear=not is_last
             )
             if found is not None:
                 break
@@ -97,13 +108,14 @@ def _placed(
     height: float,
     picture: Picture,
     kept: Kept,
+    rooms: Floats,
     *,
     must_be_clear: bool,
 ) -> list[Primitive] | None:
     """The labels at the size of the picture's type; None: one lies over another, though none may."""
     unit = height / 1000
     discs = np.vstack([_discs(scene, camera, area), pins.discs(scene, camera, area, picture, height)])
-    ground = Ground(area, discs, _samples(scene, camera, area))
+    ground = Ground(area, discs, _samples(scene, camera, area), rooms)
     around = ground.around(np.array([at for *_, at in there]).reshape(-1, 2)).tolist()
     wishes = [_wish(label, at, clear, picture, unit) for (_, label, at), clear in zip(there, around, strict=True)]
     found: list[Primitive] = []

@@ -8,7 +8,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import takewhile
+from itertools import chain, takewhile
 from math import hypot
 
 import numpy as np
@@ -16,7 +16,7 @@ import numpy as np
 from app.draw import bars, dotted, pins
 from app.draw.labels import Kept, placed
 from app.draw.picture import Box, Camera, Diagram, Dot, Entry, Link, Note, Pane, Picture, Scene
-from app.draw.primitives import ANCHOR, LEAST, Area, Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import LEAST, Area, Mark, Plate, Primitive, Stroke, Text
 from app.draw.type import measure, wrapped
 
 __all__ = [
@@ -26,7 +26,6 @@ __all__ = [
     "Primitive",
     "Stroke",
     "Text",
-    "extent",
     "fitted",
     "overlay",
     "pane_areas",
@@ -98,8 +97,9 @@ def overlay(
         else:
             seen = camera or fitted(pane.content.camera, area)
             found.extend(pins.drawn(pane.content, seen, area, picture, height))
-            found.extend(placed(pane.content, seen, area, height, picture, kept))
-            found.extend(bars.drawn(pane.content, seen, area, picture, height))
+            said = bars.drawn(pane.content, seen, area, picture, height)
+            found.extend(placed(pane.content, seen, area, height, picture, kept, bars.rooms(said)))
+            found.extend(chain(*said))
         found.extend(_framed(pane, area, picture, height))
         found.extend(_pane_title(pane, area, picture, height))
         found.extend(_reading(pane, area, picture, height))
@@ -131,13 +131,6 @@ def fitted(camera: Camera, area: Area) -> Camera:
         return replace(camera, scale=camera.scale * back)
     tangent = np.tan(np.radians(camera.angle) / 2) * back
     return replace(camera, angle=float(2 * np.degrees(np.arctan(tangent))))
-
-
-def extent(text: Text) -> Area:
-    """The room some type takes."""
-    width, ascent, descent = measure(text.text, text.size, text.bold)
-    left = text.x - ANCHOR[text.align] * width
-    return left, text.y - ascent, width, ascent + descent
 
 
 # -- words round the panes --------------------------------------------------------------------

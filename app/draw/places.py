@@ -77,10 +77,13 @@ class Place:
 
 
 class Ground:
-    """What words keep off in a pane: ``discs`` (n, 3), centre and radius of its markers; ``dots`` (n, 2) of strokes."""
+    """What words keep off in a pane: ``discs`` (n, 3), centre and radius of its markers; ``dots`` (n, 2) of strokes.
 
-    def __init__(self, area: Area, discs: Floats, dots: Floats) -> None:
-        self.area = area
+    ``rooms`` (4, n) are left, top, right and bottom of what lies over the pane already.
+    """
+
+    def __init__(self, area: Area, discs: Floats, dots: Floats, rooms: Floats) -> None:
+        self.area, self.rooms = area, rooms
         centre, radius = discs[:, :2], discs[:, 2:]
         low, high = np.array(area[:2]), np.add(area[:2], area[2:])
         seen = discs[((centre + radius > low) & (centre - radius < high)).all(axis=1)]
@@ -134,11 +137,13 @@ class Ground:
 
 def nearest(wishes: Sequence[Wish], ground: Ground) -> Iterator[Place]:
     """The places of the words, one after another: where there is a free one, the best of these."""
-    offers, taken = _Offers(wishes, ground), np.zeros((4, len(wishes)))
+    offers, begin = _Offers(wishes, ground), ground.rooms.shape[1]
+    rooms = np.concatenate([ground.rooms, np.zeros((4, len(wishes)))], axis=1)
     for k, wish in enumerate(wishes):
-        place = offers.best(k, taken[:, :k]) or _least_bad(wish, ground, taken[:, :k])
+        taken = rooms[:, : begin + k]
+        place = offers.best(k, taken) or _least_bad(wish, ground, taken)
         left, wide = place.left - APART * wish.tall, wish.wide + 2 * APART * wish.tall
-        taken[:, k] = left, place.top, left + wide, place.top + wish.tall
+        rooms[:, begin + k] = left, place.top, left + wide, place.top + wish.tall
         yield place
 
 

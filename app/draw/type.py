@@ -12,6 +12,7 @@ from matplotlib.path import Path as Outline
 
 from app.draw.formulas import formula
 from app.draw.letters import Glyph, advance, shape, together
+from app.draw.primitives import ANCHOR, Area, Text
 from subdivision.arrays import Floats, Indices
 
 FAMILY = "Inter"
@@ -39,6 +40,13 @@ def measure(text: str, size: float, bold: bool = False) -> Extent:
     """The room ``text`` takes at ``size``."""
     width, ascent, descent, _ = _set(text, bold)
     return float(width * size), float(ascent * size), float(descent * size)
+
+
+def extent(text: Text) -> Area:
+    """The room some type takes."""
+    width, ascent, descent = measure(text.text, text.size, text.bold)
+    left = text.x - ANCHOR[text.align] * width
+    return left, text.y - ascent, width, ascent + descent
 
 
 def outline(text: str, size: float, bold: bool = False) -> tuple[Floats, Indices]:

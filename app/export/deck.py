@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from app.draw.layout import LINE, extent, spoken
+from app.draw.layout import LINE, spoken
 from app.draw.markup import code
 from app.draw.picture import Colour, Picture
 from app.draw.primitives import ANCHOR, Text
 from app.draw.seen import seen
-from app.draw.type import FAMILY, runs
+from app.draw.type import FAMILY, extent, runs
 from app.figures import stood_on
 from app.state import State
 from app.words import tr

@@ -11,8 +11,8 @@ from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPixmap, QRegion
 from PySide6.QtWidgets import QWidget
 
-from app.draw.layout import extent
 from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
+from app.draw.type import extent
 from app.gui.brush import paint, type_
 from app.gui.lens import MAGNIFICATION
 from app.gui.stamps import stamp
