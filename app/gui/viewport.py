@@ -451,10 +451,10 @@ class Viewport(QWidget):
         if spot is not None:
             return Picked("vertex", (spot.point,)) if spot.stage == 0 else None
         k, area = self._pane(at)
-        camera = self.cameras()[k]
-        view = self._state.now.views[k] if camera is not None else self._state.now.lead
-        if camera is None or not is_pickable(self._state, view):
+        camera, views = self.cameras()[k], self._state.now.views
+        if camera is None or k >= len(views) or not is_pickable(self._state, views[k]):
             return None
+        view = views[k]
         control, is_solid = self._state.trace(view).control, self._state.options.surface
         return part(control, camera, area, at.x(), at.y(), is_solid=is_solid)
 
@@ -494,8 +494,8 @@ class Viewport(QWidget):
             return Spot(k, part.stage, part.point) if part.point >= 0 else None
         k, area = self._pane(at)
         content, camera = self._picture.panes[k].content, self.cameras()[k]
-        if camera is None or not isinstance(content, Scene):
-            return None
+        if camera is None or not isinstance(content, Scene) or k >= len(state.now.views):
+            return None  # nor is there a view behind a picture that was chosen, beside the true one
         if (found_point := nearest(content, camera, area, at.x(), at.y())) is None:
             return None
         stage, point = found_point

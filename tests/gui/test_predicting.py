@@ -138,6 +138,12 @@ def test_a_picture_is_chosen_by_a_click_and_framed(qtbot, cube):
     onward(qtbot, cube)
     beside = [(pane.title, pane.frame is not None) for pane in cube.viewport.picture().panes[1:]]
     assert beside == [("3: predicted", True), ("2: true", False)]
+    view, spots = cube.viewport, []
+    for k, (pane, area) in enumerate(zip(view.picture().panes, view.areas(), strict=True)):
+        (x, y), *_ = view.cameras()[k].project(pane.content.markers[0].points, *area[2:])[:, :2] + area[:2]
+        spots.append(view.spot_at(QPointF(x, y)))
+    assert spots[0] is not None
+    assert spots[1:] == [None, None]
 
 
 @pytest.mark.parametrize("key", [Key.Key_PageDown, Key.Key_Right, Key.Key_Space])
