@@ -33,6 +33,10 @@ BENCH = Lesson(LABORATORY, "Your own object", SECTION, lambda: iter(()))
 """The row of the laboratory, whatever is on its table."""
 
 
+NARROWEST = 86
+"""Of the search box, in pixels at 100 %: it is no wider with the button that clears it, which comes and goes."""
+
+
 class Contents(QWidget):
     """Arrow keys choose, Enter or a click opens; the search box filters as one types.
 
@@ -48,6 +52,7 @@ class Contents(QWidget):
         self._session = session
         self._shown: State | None = None
         self.search = QLineEdit(placeholderText=tr("Search   Ctrl+K"), clearButtonEnabled=True)
+        self.search.setMinimumWidth(px(NARROWEST))
         self.search.setAccessibleName(tr("Search the lessons"))
         self.search.textChanged.connect(self._filter)
         self.search.returnPressed.connect(self._open_first)

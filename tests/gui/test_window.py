@@ -344,6 +344,15 @@ def test_a_narrow_window_puts_the_details_behind_their_button(qtbot, window):
     qtbot.waitUntil(lambda: window._sides["details"].isVisible(), timeout=2000)
 
 
+def test_a_search_in_a_narrow_panel_moves_nothing(qtbot, window):
+    window._splitter.setSizes([1, window.width(), 1])
+    qtbot.wait(100)
+    wide = window.contents.width()
+    window.contents.search.setText("loop")
+    qtbot.wait(500)  # the button that clears it comes bit by bit
+    assert window.contents.width() == wide
+
+
 def test_searching_and_enter_open_a_lesson_from_the_keyboard(qtbot, window):
     wanted = all_lessons()[-1]
     press(window, Key.Key_K, Qt.KeyboardModifier.ControlModifier)
