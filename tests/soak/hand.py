@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
     QDoubleSpinBox,
+    QLineEdit,
     QMenu,
     QScrollBar,
     QWidget,
@@ -109,8 +110,9 @@ class Hand:
         return QPoint(min(max(at.x(), 0), self.window.width() - 1), min(max(at.y(), 0), self.window.height() - 1))
 
     def seen(self, *kinds: type) -> list[QWidget]:
-        """The widgets of some kinds that can be used now."""
-        found = (w for kind in kinds for w in self.window.findChildren(kind))
+        """The widgets of some kinds that can be used now, but for the button in a line of text, which fades away."""
+        every = (w for kind in kinds for w in self.window.findChildren(kind))
+        found = (w for w in every if not isinstance(w.parent(), QLineEdit))
         return [w for w in found if w.isVisible() and w.isEnabled() and not isinstance(w, QScrollBar)]
 
     def in_view(self, rng: Random) -> QPoint:
