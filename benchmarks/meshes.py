@@ -5,6 +5,7 @@ from scipy.spatial import ConvexHull, KDTree
 
 from benchmarks.files import Control
 from subdivision import Mesh, Topology, shapes, subdivide
+from subdivision.arrays import inverse
 from subdivision.schemes import CATMULL_CLARK
 
 
@@ -27,9 +28,7 @@ def ball(n: int) -> Control:
 def along(control: Control) -> Control:
     """Numbered along its surface, as meshes that were modelled or scanned are: neighbours are near in memory."""
     order = KDTree(control.points, leafsize=8).indices
-    number = np.empty(len(order), dtype=np.intp)
-    number[order] = np.arange(len(order))
-    faces = number[control.faces]
+    faces = inverse(order)[control.faces]
     faces = faces[np.lexsort((faces.max(axis=1), faces.min(axis=1)))]
     return _control(f"{control.name}, in order", control.points[order], faces)
 

@@ -51,10 +51,15 @@ def turned(rows: NDArray[Scalar], by: int) -> NDArray[Scalar]:
 
 def next_corners(sizes: Indices) -> Indices:
     """(n_corners,): the corner after each, round its face, where faces of ``sizes`` corners lie end to end."""
-    start = np.cumsum(sizes) - sizes
-    after = np.arange(1, int(sizes.sum()) + 1)
-    after[start + sizes - 1] = start
+    end = np.cumsum(sizes)
+    after = np.arange(1, (int(end[-1]) if len(end) else 0) + 1)
+    after[end - 1] = end - sizes
     return after
+
+
+def stretches(start: Indices, counts: Indices) -> Indices:
+    """(sum of counts,): from each ``start`` on so many numbers, one after the other."""
+    return np.repeat(start - np.cumsum(counts) + counts, counts) + np.arange(int(counts.sum()))
 
 
 def inverse(order: Indices) -> Indices:

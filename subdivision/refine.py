@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, columns, constant, short, taken, turned
+from subdivision.arrays import Floats, Indices, columns, constant, next_corners, short, taken, turned
 from subdivision.topology import INFINITELY_SHARP, Topology
 
 
@@ -108,16 +108,8 @@ def deferred(
         known["is_smooth"] = True
     if not coarse.hidden.any():
         known["hidden"] = constant(False, n_faces)
-    alike = {"next": lambda: following(known["face_sizes"]), "face": lambda: np.repeat(np.arange(n_faces), size)}
+    alike = {"next": lambda: next_corners(known["face_sizes"]), "face": lambda: np.repeat(np.arange(n_faces), size)}
     return Topology.deferred({**alike, **make}, **known)
-
-
-def following(face_sizes: Indices) -> Indices:
-    """(n_halfedges,) int: each half-edge of faces of these sizes to the next."""
-    last = np.cumsum(face_sizes) - 1
-    following = np.arange(1, last[-1] + 2)
-    following[last] = last + 1 - face_sizes
-    return following
 
 
 def worn(sharpness: Floats) -> Floats:

@@ -10,9 +10,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from subdivision.arrays import Indices, constant, taken
+from subdivision.arrays import Indices, constant, next_corners, taken
 from subdivision.cycles import vertex_slots
-from subdivision.refine import Refinement, before, following
+from subdivision.refine import Refinement, before
 from subdivision.topology import Topology
 
 Links: TypeAlias = tuple[Indices, Indices]
@@ -110,7 +110,7 @@ def _dual(origin: Indices, face_sizes: Indices, n_vertices: int, n_edges: int, l
     """The mesh, without any sharpness; ``links`` are made when they are needed."""
     once, n = lru_cache(links), len(face_sizes)
     make = {
-        "next": lambda: following(face_sizes),
+        "next": lambda: next_corners(face_sizes),
         "twin": lambda: once()[0],
         "edge": lambda: once()[1],
         "face": lambda: np.repeat(np.arange(n), face_sizes),

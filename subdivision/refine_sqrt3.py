@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from subdivision.arrays import Indices, columns, constant, short, taken, turned
-from subdivision.refine import Refinement, following
+from subdivision.arrays import Indices, columns, constant, next_corners, short, taken, turned
+from subdivision.refine import Refinement
 from subdivision.topology import Topology
 
 
@@ -60,7 +60,7 @@ def _flipped_twins(t: Topology) -> Indices:
 def _smooth(make: Mapping[str, Callable[[], Indices]], n_faces: int, n_edges: int, n_vertices: int) -> Topology:
     """Triangles without any sharpness."""
     sizes = constant(3, n_faces)
-    alike = {"next": lambda: following(sizes), "face": lambda: np.repeat(np.arange(n_faces), 3)}
+    alike = {"next": lambda: next_corners(sizes), "face": lambda: np.repeat(np.arange(n_faces), 3)}
     return Topology.deferred(
         {**alike, **make}, n_vertices=n_vertices, is_smooth=True, face_sizes=sizes,
         edge_sharpness=constant(0.0, n_edges), vertex_sharpness=constant(0.0, n_vertices),

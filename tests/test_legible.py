@@ -56,7 +56,7 @@ def _least_height(boxes):
     return np.minimum(boxes[:, None, 3], boxes[None, :, 3])[..., None]
 
 
-@pytest.mark.parametrize("crowd", [0, 3, 40])
+@pytest.mark.parametrize("crowd", [0, 3, 40, 120])
 def test_no_place_for_a_label_is_better_than_its_own(crowd):
     rng, area = np.random.default_rng(crowd), (10.0, 20.0, 600.0, 400.0)
     discs, dots = rng.uniform(0, 600, (crowd, 3)) * (1, 1, 0.02), rng.uniform(0, 600, (10 * crowd, 2))

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.draw.picture import Bar, Camera, Picture, Scene
+from app.draw.places import meeting
 from app.draw.primitives import LEAST, Area, Plate, Primitive, Text
 from app.draw.type import extent, measure, wrapped
 from subdivision.arrays import Floats
@@ -50,9 +51,8 @@ def rooms(flat: Sequence[Sequence[Primitive]]) -> Floats:
 
 def _over(room: Floats, others: Floats) -> float:
     """How far up a room must go to be above all that it meets."""
-    left, top, right, bottom = others
-    meets = (left < room[2]) & (right > room[0]) & (bottom > room[1]) & (top < room[3])
-    return float((room[3] - top[meets]).max(initial=0.0))
+    left, top, right, bottom = room
+    return float((bottom - others[1, meeting((left, top, right, bottom), others)]).max(initial=0.0))
 
 
 def _needed(bar: Bar, picture: Picture, unit: float) -> float:

@@ -5,7 +5,7 @@ import numpy as np
 from app.draw import regular
 from app.draw.picture import Faces, Lines
 from app.draw.regular import CREASED, SMOOTH, Facets
-from subdivision.arrays import Floats, Indices, next_corners
+from subdivision.arrays import Floats, Indices, next_corners, stretches
 
 MANY = 256
 """From so many polygons on it is worth to know connectivity again."""
@@ -115,7 +115,7 @@ def dashes(lines: Lines, length: float) -> Lines:
     span = np.linalg.norm(b - a, axis=1)
     count = np.clip(np.round((span / max(length, 1e-300) + 1) / 2), 1, 500).astype(np.intp)
     owner = np.repeat(np.arange(len(span)), count)
-    k = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    k = stretches(np.zeros_like(count), count)
     unit = 1 / (2 * count[owner] - 1)
     at = np.stack([2 * k * unit, (2 * k + 1) * unit], axis=1).reshape(-1, 1)
     both = np.repeat(owner, 2)

@@ -213,7 +213,7 @@ class _Offers:
                 break  # whatever is further off costs more
             offer = self._of(number, k)
             n = int(offer.cost.searchsorted(least))
-            near = taken[:, _meeting(offer.room, taken)] if n else taken
+            near = taken[:, meeting(offer.room, taken)] if n else taken
             for some in (slice(0, min(n, FIRST)), slice(FIRST, n)):
                 free = ~_over(offer.left[some], offer.top[some], wish, near).any(axis=0)
                 if free.any():
@@ -268,10 +268,10 @@ def _least_bad(wish: Wish, ground: Ground, taken: Floats) -> Place:
 
 def _over(left: Floats, top: Floats, wish: Wish, taken: Floats) -> Mask:
     """(m, n): which of the ``taken`` (4, m) rooms words with their corner at each place are over."""
-    return _meeting((left, top, left + wish.wide, top + wish.tall), taken[:, :, None])
+    return meeting((left, top, left + wish.wide, top + wish.tall), taken[:, :, None])
 
 
-def _meeting(room: Room, taken: Floats) -> Mask:
+def meeting(room: Room, taken: Floats) -> Mask:
     """Which of the ``taken`` (4, ...) rooms meet a room, or each its own."""
     left, top, right, bottom = room
     return np.asarray((left < taken[2]) & (taken[0] < right) & (top < taken[3]) & (taken[1] < bottom))

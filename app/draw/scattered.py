@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.draw.primitives import Area
-from subdivision.arrays import Floats, Indices
+from subdivision.arrays import Floats, Indices, stretches
 
 CELLS = 64
 """A pane is so many cells across and down."""
@@ -50,4 +50,4 @@ def _all_from(start: Indices, stop: Indices) -> tuple[Indices, Indices]:
     """Every number from each ``start`` to before its ``stop``, after the number of the pair it is of."""
     counts = stop - start
     owner = np.repeat(np.arange(len(counts)), counts)
-    return owner, np.arange(len(owner)) + np.repeat(start - np.cumsum(counts) + counts, counts)
+    return owner, stretches(start, counts)

@@ -54,13 +54,18 @@ class Late(QWidget):
         if not self.is_made:
             self.is_made = True
             self.make()
-            for part in self.findChildren(QWidget):
-                part.ensurePolished()
+            polish(self)
 
     def inherit(self, before: Self) -> None:
         """Have parts if the panel before had."""
         if before.is_made:
             self.need()
+
+
+def polish(panel: QWidget) -> None:
+    """Give all parts of a panel their style now, which else takes its time when it is shown first."""
+    for part in panel.findChildren(QWidget):
+        part.ensurePolished()
 
 
 class Section(QWidget):

@@ -134,6 +134,8 @@ class Viewport(QWidget):
                 each.close()
             self._painters = []
             self._plotter.close()
+            if self._plotter.isValid():  # it would keep the address of a surface, and what comes there be taken for one
+                self._plotter.context().aboutToBeDestroyed.emit()
             self._plotter.deleteLater()
             self._plotter = None
 

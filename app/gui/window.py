@@ -55,7 +55,7 @@ from app.gui.look import GRID, SCALES, colour, dressing, fine, icon, line_of, px
 from app.gui.manual import Manual
 from app.gui.notes import Notes
 from app.gui.opening import Opener
-from app.gui.parts import Section, column
+from app.gui.parts import Section, column, polish
 from app.gui.pieces import Furniture
 from app.gui.presenter import Presenter, spare_screen
 from app.gui.recorder import Recorder
@@ -158,9 +158,10 @@ class Window(QMainWindow):
             self._turns.begin(self._changing())
 
     def _show(self, state: State) -> None:
-        for view in self._views:
-            with apart(), self._guard.away():  # a panel that fails keeps no other from showing the state
-                view.show_state(state)
+        with self._guard.away():
+            for view in self._views:
+                with apart():  # a panel that fails keeps no other from showing the state
+                    view.show_state(state)
         for id_, action in self.actions_by_id.items():
             if (on := BY_ID[id_].on) is not None:
                 action.setChecked(on(state.options))
@@ -568,8 +569,7 @@ class Window(QMainWindow):
             yield
             with apart(), self._guard.away():
                 view.show_state(self.session.state)
-                for part in view.findChildren(QWidget):
-                    part.ensurePolished()
+                polish(view)
         for step in self._changing_for(new):
             yield
             with self._guard.away():

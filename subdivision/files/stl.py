@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices
+from subdivision.arrays import Floats, Indices, inverse
 from subdivision.files.content import Content
 from subdivision.files.faults import Fault, quoted
 from subdivision.files.text import BYTE_ORDER_MARK, Row, Vertices, require_finite, rows, text_lines
@@ -126,8 +126,7 @@ def _merged(corners: Floats, sizes: Indices, where: Indices, unit: str) -> Conte
     order = np.lexsort(corners.T)
     opens = np.r_[True, (np.diff(corners[order], axis=0) != 0).any(axis=1)][: len(order)]
     first = order[opens]  # the sort is stable: the first of equals opens their group
-    rank = np.empty(len(first), dtype=np.intp)
-    rank[np.argsort(first)] = np.arange(len(first))
+    rank = inverse(np.argsort(first))
     vertex = np.empty(len(corners), dtype=np.intp)
     vertex[order] = rank[np.cumsum(opens) - 1]
     points = corners[np.sort(first)]

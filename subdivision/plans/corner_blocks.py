@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
-from subdivision.arrays import Floats, Indices, constant, short, taken
+from subdivision.arrays import Floats, Indices, constant, short, stretches, taken
 from subdivision.plans.corner_numbers import Corners, Numbering, digit, vertex_cycles
 from subdivision.plans.corner_steps import Wave, weights
 from subdivision.topology import Topology
@@ -187,7 +187,7 @@ def blocks(t: Topology, wave: Wave, numbering: Numbering, depth: int) -> Blocks 
     start = np.cumsum(count) - count
     begins = start << 2 * depth
     begin = np.empty(t.n_halfedges, dtype=np.intp)
-    begin[order] = np.repeat(begins - start, count) + np.arange(t.n_halfedges)
+    begin[order] = stretches(begins, count)
     kinds = []
     for i, key in enumerate(pairs.tolist()):
         of_face, of_vertex = divmod(key, base)

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from subdivision.arrays import Indices, taken
+from subdivision.arrays import Indices, inverse, taken
 from subdivision.cycles import vertex_slots
 from subdivision.refine_dual import corners, midpoints
 from subdivision.topology import Topology
@@ -150,8 +150,7 @@ def _midpoint_origin(c: Corners, points: Four, out: Indices) -> None:
         faces[at] = number
     _columns(vertices, other, own, quad, around)
     _columns(along, own, own[c.prev], other[c.prev], quad)
-    at_slot = np.empty_like(c.slot)
-    at_slot[c.slot] = np.arange(len(c.slot), dtype=c.slot.dtype)
+    at_slot = inverse(c.slot)
     before = behind[at_slot]
     _columns(about, around[at_slot], around[before], quad[before], other[at_slot])
 

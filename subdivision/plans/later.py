@@ -15,7 +15,7 @@ import numpy as np
 from scipy.sparse import _sparsetools
 
 from subdivision import refine
-from subdivision.arrays import Floats, Indices, Small, taken
+from subdivision.arrays import Floats, Indices, Small, next_corners, taken
 from subdivision.plans.kernels import Rule
 from subdivision.plans.sharp_rows import SharpRows, sharp_rows
 from subdivision.topology import Topology
@@ -38,9 +38,10 @@ class Faces:
         """Faces of these ``sizes``, one after the other."""
         end = np.cumsum(sizes)
         start = end - sizes
-        after, before = np.arange(1, end[-1] + 1), np.arange(-1, end[-1] - 1)
-        after[end - 1], before[start] = start, end - 1
-        return cls(after, before, np.repeat(np.arange(len(sizes)), sizes), np.append(start, end[-1]).astype(np.int32))
+        before = np.arange(-1, end[-1] - 1)
+        before[start] = end - 1
+        face, starts = np.repeat(np.arange(len(sizes)), sizes), np.append(start, end[-1]).astype(np.int32)
+        return cls(next_corners(sizes), before, face, starts)
 
     @cached_property
     def places(self) -> Small:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from subdivision.arrays import Floats, Indices, Small, inverse, next_corners, taken
+from subdivision.arrays import Floats, Indices, Small, inverse, next_corners, stretches, taken
 from subdivision.topology import Topology
 
 
@@ -55,7 +55,7 @@ def nearby(t: Topology) -> Nearby:
     start = np.cumsum(t.face_sizes) - t.face_sizes
     faces = np.lexsort((np.maximum.reduceat(corners, start), np.minimum.reduceat(corners, start)))
     sizes = t.face_sizes[faces]
-    before = np.repeat(start[faces] - np.cumsum(sizes) + sizes, sizes) + np.arange(t.n_halfedges)
+    before = stretches(start[faces], sizes)
     now = inverse(before)
     edges = _by_first(t.edge[before], t.n_edges)
     twin = t.twin[before]

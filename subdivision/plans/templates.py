@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from subdivision import refine
-from subdivision.arrays import Indices, frozen
+from subdivision.arrays import Indices, frozen, inverse
 from subdivision.topology import Topology
 
 
@@ -63,8 +63,7 @@ def template(k: int, depth: int) -> Template:
         for j in range(1, n)
     ]
     order = [*range(k), *sorted(set(range(k, len(at))) - set(sides)), *sides]
-    renumbered = np.empty(len(order), dtype=np.intp)
-    renumbered[order] = np.arange(len(order))
+    renumbered = inverse(np.array(order, dtype=np.intp))
     small, _ = descendants(k, 1, depth)
     corners = renumbered[t.origin.reshape(-1, k)[small]]
     image = renumbered[[number[y, x] for x, y in (places[v] for v in order)]]

@@ -1,12 +1,13 @@
 """Journeys through the real window, by the keys and the mouse that users have."""
 
+import gc
 import threading
 from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QImage, QKeySequence
+from PySide6.QtGui import QImage, QKeySequence, QOpenGLContext, QSurface
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
@@ -420,3 +421,11 @@ def test_a_message_goes_when_another_lesson_comes(window, lesson):
     assert not window.banner.isHidden()
     window.session.do(open_lesson, replace(lesson, id="another"))
     assert window.banner.isHidden()
+
+
+def test_a_window_that_is_closed_keeps_no_address_of_what_qt_has_given_back(window, qtbot):
+    gc.collect()
+    assert window.viewport.canvas.isVisible()
+    window.close()
+    qtbot.wait(10)
+    assert {QOpenGLContext, QSurface}.isdisjoint(map(type, gc.get_objects()))
