@@ -24,6 +24,7 @@ from app.gui.look import SCALES
 from app.gui.shown import SHOWN
 from app.gui.surface import NEXT, SWITCHES, show_next
 from app.gui.timeline import SPEEDS, next_speed, spoken_speed
+from app.gui.turns import OVER
 from app.laboratory.editing import turn_sharpness
 from app.state import (
     Options,
@@ -271,6 +272,14 @@ class KeyGuard(QObject):
             yield
         finally:
             self.watch(was)
+
+    def spared(self, steps: Iterator[object]) -> Iterator[None]:
+        """Do steps, away in each of them and back between them."""
+        while True:
+            with self.away():
+                if next(steps, OVER) is OVER:
+                    return
+            yield
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() != QEvent.Type.ShortcutOverride or not isinstance(event, QKeyEvent):

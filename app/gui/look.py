@@ -134,9 +134,10 @@ class Style(QProxyStyle):
 
 
 def dressing(app: QApplication, theme: Theme) -> Generator[None, None, None]:
-    """Give the whole program the colours of a theme, in two steps: Qt goes through every widget twice."""
+    """Give the whole program the colours of a theme, step by step: Qt goes through every widget each time."""
     if is_other := (wanted := sheet(theme)) != app.styleSheet():
         app.setStyleSheet("")  # one sheet for another takes twice as long as none and then the other
+        yield
     app.setFont(type_face(14))
     app.setPalette(palette(theme))
     yield

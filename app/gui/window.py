@@ -219,12 +219,7 @@ class Window(QMainWindow):
     def _dressed(self) -> Iterator[None]:
         """Everything that there is in the theme, and at the scale, of the state."""
         self._theme = theme = self.session.state.options.theme
-        steps = dressing(QApplication.instance(), THEMES[theme])  # type: ignore[arg-type]
-        with self._guard.away():
-            next(steps)
-        yield
-        with self._guard.away():
-            ended(steps)
+        yield from self._guard.spared(dressing(QApplication.instance(), THEMES[theme]))  # type: ignore[arg-type]
         yield
         for id_, action in self.actions_by_id.items():
             if name := BY_ID[id_].icon:
