@@ -110,8 +110,7 @@ class Pair:
 
     def until_drawn(self, wish: Callable[[], object]) -> float:
         """Seconds of the processor from a wish until its picture is on the screen: other programs take none of them."""
-        for pause in (self.window.viewport._calm, self.window.viewport._still):
-            pause.stop()  # or it is smoothed, or drawn in full, while the empty one is looked at
+        self.window.viewport.stay()  # or it is smoothed, or drawn in full, while the empty one is looked at
         self.app.processEvents()
         drawn, end, start = self.drawn, time.perf_counter() + 5, time.process_time()
         wish()
@@ -253,8 +252,8 @@ def rest() -> None:
     drawn = pair.drawn
     pair.wait(3.0)
     say("pictures drawn in 3 s in which nothing happens", pair.drawn - drawn, None, 0, "")
-    samples = pair.window.viewport._plotter.render_window.GetMultiSamples()
-    say("samples wanting in a picture at rest (4 are there)", max(4 - samples, 0), None, 0, "")
+    samples = pair.window.viewport.samples
+    say(f"samples wanting of 4 in a picture at rest ({samples} are there)", max(4 - samples, 0), None, 0, "")
     pair.close()
 
 

@@ -1,4 +1,4 @@
-"""What is drawn in haste: the far side of a closed surface is left out, which nobody can see."""
+"""What is drawn in haste: the far side of a closed surface is left out, which nobody can see.  And nudged pictures."""
 
 from dataclasses import replace
 
@@ -121,3 +121,25 @@ def test_parts_are_those_of_the_graph(links):
     count, wanted = connected_components(graph, directed=False)
     found = _parts(100, ends, others)
     assert len(np.unique(found)) == count == len(np.unique(np.stack([found, wanted]), axis=1).T)
+
+
+@pytest.mark.parametrize("window", [(0.0, 0.0, 1.0), (0.3, -0.2, 0.5)], ids=["whole", "through the magnifier"])
+@pytest.mark.parametrize("camera", [OBLIQUE, PARALLEL], ids=["perspective", "parallel"])
+def test_a_nudged_picture_is_the_same_so_many_pixels_further(plotter, camera, window):
+    painter, scene = vtk.ScenePainter(plotter), Scene(camera, (surface(shapes.cube()),))
+    painter.paint(scene, 240)
+    painter.look(camera, window)
+    painter.clip(scene)
+    pictures = []
+    for right, up in ((0, 0), (7, 0), (0, 5), (0, 0)):
+        painter.nudge(right, up)
+        plotter.render_window.Render()
+        pictures.append(np.array(plotter.screenshot(return_img=True)).astype(int))
+    painter.close()
+    painter.renderer.RemoveAllViewProps()
+    still, right, up, again = pictures
+    np.testing.assert_array_equal(again, still)
+    for moved, other in ((right[:, 7:], still[:, :-7]), (up[:-5], still[5:])):
+        assert np.ptp(moved) > 50
+        assert np.mean(np.abs(moved - other) > 2) < 1e-3  # but where a pixel's middle is on a rim
+    assert np.mean(np.abs(right - still) > 2) > 1e-3

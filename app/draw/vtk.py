@@ -51,6 +51,7 @@ class ScenePainter:
         self._window = plotter.render_window
         self._over = _layer_above(self.renderer, self._window)
         self._is_hasty = False
+        self._middle = 0.0, 0.0
         self._faces: list[_Surface] = []
         self._lines: list[_Strokes] = []
         self._markers = {(shape, solid): Glyphs(shape, solid=solid) for shape in Shape for solid in (True, False)}
@@ -81,6 +82,7 @@ class ScenePainter:
         """
         right, above, part = window
         there = self.renderer.GetActiveCamera()
+        self._middle = right, above
         there.SetWindowCenter(right, above)
         there.SetPosition(*camera.position)
         there.SetFocalPoint(*camera.focal)
@@ -92,6 +94,12 @@ class ScenePainter:
         self._over.SetActiveCamera(there)
         for surface in self._faces:
             surface.light(camera)
+
+    def nudge(self, right: float, up: float) -> None:
+        """Everything is so many pixels further right and up than it is where the camera stands."""
+        wide, tall = (max(side, 1) for side in self.renderer.GetSize())
+        across, above = self._middle
+        self.renderer.GetActiveCamera().SetWindowCenter(across - 2 * right / wide, above - 2 * up / tall)
 
     def clip(self, scene: Scene) -> None:
         """Near and far planes just round what is there."""

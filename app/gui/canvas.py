@@ -1,18 +1,24 @@
 """The picture in space where the processor does the work of a graphics card: copied into the window.
 
 With a widget of OpenGL in it Qt puts the whole window together by OpenGL, picture for picture.  A graphics card does
-that for nothing; a processor takes longer over it than over most pictures.
+that for nothing; a processor takes longer over it than over most pictures.  Nor does it get several samples of each
+pixel at once, which holds the window up: it gets one after another, over turns of the event loop.
 """
 
+from collections.abc import Callable, Iterator
 from math import ceil
+from time import process_time
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+
+from app.gui.turns import Turns
 
 DPI = 72
 """What VTK is told to be the resolution of a screen whose pixels are not scaled."""
@@ -20,24 +26,50 @@ DPI = 72
 OPAQUE = np.frombuffer(bytes((0, 0, 0, 255)), dtype=np.uint32)
 """A pixel of which nothing shines through."""
 
+PLACES = np.array([(1, -3), (-1, 3), (5, 1), (-3, -5), (-5, 5), (-7, -1), (3, 7), (7, -7)]) / 16
+"""Where in a pixel its samples are, right and up from its middle: no two of them in one column or row."""
+
+QUICK = 0.030
+"""Seconds of the processor that a picture takes at most whose samples are taken one after another."""
+
 
 class Canvas(QWidget):
-    """Shows what a plotter draws that is on no screen itself, and is drawn again only when it is told to."""
+    """Shows what a plotter draws that is on no screen itself, and is drawn again only when it is told to.
 
-    def __init__(self, parent: QWidget, plotter: Any) -> None:
+    ``nudge`` moves everything in the picture so many pixels right and up.
+    """
+
+    def __init__(self, parent: QWidget, plotter: Any, nudge: Callable[[float, float], None]) -> None:
         super().__init__(parent)
-        self._plotter, self._pixels = plotter, vtkUnsignedCharArray()
+        self._plotter, self._pixels, self._nudge = plotter, vtkUnsignedCharArray(), nudge
         self._rows = np.zeros((0, 0), dtype=np.uint32)
-        self._is_stale = True
+        self._is_stale, self._took = True, 0.0
+        self._smoothing = Turns(self)
+        self.samples = 1
+        """How many samples each pixel has that is shown."""
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.WheelFocus)
         plotter.grabFramebuffer()  # brings up OpenGL
 
+    @property
+    def is_quick(self) -> bool:
+        """Whether what is in space is drawn again soon."""
+        return self._took <= QUICK
+
     def refresh(self, tall: float) -> None:
         """What is in space has changed, as far down as nothing covers it."""
+        self._smoothing.stop()
         self._is_stale = True
         self.update(0, 0, self.width(), ceil(tall))
+
+    def smooth(self) -> None:
+        """Draw it for each sample of a pixel, in turns of the event loop, and show what they are together."""
+        self._smoothing.begin(self._smoothed())
+
+    def stop(self) -> None:
+        """Leave it as it is."""
+        self._smoothing.stop()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
@@ -47,7 +79,8 @@ class Canvas(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         if self._is_stale:
             self._is_stale = False
-            self._draw()
+            self._rows = self._drawn()
+            self.samples = max(self._plotter.render_window.GetMultiSamples(), 1)
         tall, wide = self._rows.shape
         shown = QImage(self._rows.data, wide, tall, QImage.Format.Format_RGBX8888)
         shown.setDevicePixelRatio(self.devicePixelRatioF())
@@ -56,11 +89,27 @@ class Canvas(QWidget):
         painter.drawImage(0, 0, shown)
         painter.end()
 
-    def _draw(self) -> None:
+    def _smoothed(self) -> Iterator[None]:
+        total: Any = np.uint16(len(PLACES) // 2)  # rounds
+        for right, up in PLACES.tolist():
+            self._nudge(right, up)
+            rows = self._drawn()
+            self._nudge(0.0, 0.0)
+            total += rows.view(np.uint8)
+            yield
+        self._rows = (total // len(PLACES)).astype(np.uint8).view(np.uint32)
+        self._is_stale, self.samples = False, len(PLACES)
+        self.update()
+
+    def _drawn(self) -> NDArray[np.uint32]:
+        """What is in space, (height, width) pixels from the top down."""
+        begin = process_time()
         window, scale = self._plotter.render_window, self.devicePixelRatioF()
         wide, tall = (max(round(scale * side), 1) for side in (self.width(), self.height()))
         window.SetSize(wide, tall)
         window.SetDPI(round(DPI * scale))
         window.Render()
         window.GetRGBACharPixelData(0, 0, wide - 1, tall - 1, 1, self._pixels, 0)
-        self._rows = vtk_to_numpy(self._pixels).view(np.uint32).reshape(tall, wide)[::-1] | OPAQUE
+        rows = vtk_to_numpy(self._pixels).view(np.uint32).reshape(tall, wide)[::-1] | OPAQUE
+        self._took = process_time() - begin
+        return rows

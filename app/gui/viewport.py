@@ -110,7 +110,7 @@ class Viewport(QWidget):
         self._plotter.setAcceptDrops(False)
         self._painters = [ScenePainter(self._plotter, 1 + k) for k in range(PANES)]
         self._plotter.renderers[0].SetViewport(0, 0, 1, 1)  # clears what no pane covers
-        self._put_up(Canvas(self, self._plotter) if self._is_soft else self._plotter)
+        self._put_up(Canvas(self, self._plotter, self._nudge) if self._is_soft else self._plotter)
         self.show_state(self._state)
 
     def _put_up(self, canvas: QWidget) -> None:
@@ -126,8 +126,7 @@ class Viewport(QWidget):
 
     def close_vtk(self) -> None:
         """Give everything back, in the order VTK needs."""
-        self._calm.stop()
-        self._still.stop()
+        self.stay()
         if self._plotter is not None:
             self.canvas.removeEventFilter(self)
             for each in self._painters:
@@ -138,6 +137,13 @@ class Viewport(QWidget):
                 self._plotter.context().aboutToBeDestroyed.emit()
             self._plotter.deleteLater()
             self._plotter = None
+
+    def stay(self) -> None:
+        """Let the picture become no better than it is."""
+        self._calm.stop()
+        self._still.stop()
+        if self._is_soft and self._plotter is not None:
+            self.canvas.stop()
 
     # -- showing --------------------------------------------------------------------------------
 
@@ -318,12 +324,26 @@ class Viewport(QWidget):
                 self._plotter.update()
 
     def _smooth(self) -> None:
-        if self._plotter is not None and not self._state.is_playing and not self._is_drag:
-            self._draw_at(samples=SAMPLES // 2 if self._is_soft else SAMPLES, is_hasty=False)
-            if self._is_soft:
-                self.canvas.refresh(self._tall())
-            else:
-                self._plotter.update()
+        if self._plotter is None or self._state.is_playing or self._is_drag:
+            return
+        if not self._is_soft:
+            self._draw_at(samples=SAMPLES, is_hasty=False)
+            self._plotter.update()
+        elif self.canvas.isVisible() and self.canvas.is_quick:
+            self._draw_at(samples=0, is_hasty=False)
+            self.canvas.smooth()
+        else:
+            self._draw_at(samples=SAMPLES // 2, is_hasty=False)
+            self.canvas.refresh(self._tall())
+
+    @property
+    def samples(self) -> int:
+        """How many samples each pixel of the picture in space has."""
+        return int(self.canvas.samples if self._is_soft else self._plotter.render_window.GetMultiSamples())
+
+    def _nudge(self, right: float, up: float) -> None:
+        for painter in self._painters:
+            painter.nudge(right, up)
 
     def _draw_at(self, *, samples: int, is_hasty: bool) -> None:
         """How well the picture is drawn from now on."""

@@ -12,6 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.draw.theme import THEMES
+from app.gui.canvas import PLACES
 from app.gui.keys import COMMANDS, spelled_keys
 from app.gui.session import Session
 from app.gui.sheets import rows
@@ -299,16 +300,24 @@ def test_nothing_is_drawn_while_nothing_happens(qtbot, window):
     window.session.do(toggle, "ghost")
     qtbot.wait(600)
     window.viewport._plotter.render_window.RemoveObserver(tag)
-    assert 1 <= len(drawn) <= 2  # once plain, once smooth
+    assert len(drawn) == 1 + window.viewport.samples == 1 + len(PLACES)  # once plain, then once for each sample
+
+
+def seen(viewport):
+    """(height, width, 3): what the viewport shows."""
+    shown = viewport.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    rows = np.frombuffer(shown.constBits(), np.uint8).reshape(shown.height(), shown.bytesPerLine())
+    return rows[:, : 3 * shown.width()].reshape(shown.height(), -1, 3).astype(int)
 
 
 def test_a_picture_is_the_same_whether_it_is_copied_into_the_window_or_put_there_by_opengl(
     qtbot, lesson, settings, monkeypatch
 ):
     pictures = []
-    for is_soft, samples in ((True, 8), (False, 4)):  # the former has half of them
+    for is_soft, quick, samples in ((True, -1.0, 4), (False, 0.0, 4), (True, 9.0, len(PLACES))):
         monkeypatch.setattr("app.gui.viewport.is_software", lambda is_soft=is_soft: is_soft)
-        monkeypatch.setattr("app.gui.viewport.SAMPLES", samples)
+        monkeypatch.setattr("app.gui.viewport.SAMPLES", 8 if is_soft else 4)  # what takes long has half of them
+        monkeypatch.setattr("app.gui.canvas.QUICK", quick)
         other = Window(Session(start(lesson)), settings)
         other.resize(1280, 720)
         other.show()
@@ -317,13 +326,28 @@ def test_a_picture_is_the_same_whether_it_is_copied_into_the_window_or_put_there
         assert (other.viewport.canvas is other.viewport._plotter) is not is_soft
         other.session.do(last)
         qtbot.wait(800)
-        shown = other.viewport.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
-        rows = np.frombuffer(shown.constBits(), np.uint8).reshape(shown.height(), shown.bytesPerLine())
-        pictures.append(rows[:, : 3 * shown.width()].astype(int))
+        assert other.viewport.samples == samples
+        pictures.append(seen(other.viewport))
         other.close()
         other.deleteLater()
     assert np.ptp(pictures[0]) > 100
     assert np.abs(pictures[0] - pictures[1]).max() <= 2
+    other = np.abs(pictures[0] - pictures[2])  # each sample is drawn for itself: only where something ends
+    assert 0 < np.mean(other > 2) < 0.05
+    assert other.mean() < 0.5
+
+
+def test_what_changes_while_it_becomes_smooth_becomes_smooth_as_it_is_then(qtbot, window):
+    view = window.viewport
+    qtbot.waitUntil(lambda: view.samples == len(PLACES))
+    before = seen(view)
+    window.session.do(toggle, "ghost")
+    qtbot.waitUntil(lambda: view.canvas._smoothing.are_left)
+    window.session.do(toggle, "ghost")
+    assert not view.canvas._smoothing.are_left
+    qtbot.waitUntil(lambda: view.samples == 1)
+    qtbot.waitUntil(lambda: view.samples == len(PLACES))
+    np.testing.assert_array_equal(seen(view), before)
 
 
 @pytest.mark.parametrize("theme", ["light", "dark", "projector"])
