@@ -391,6 +391,21 @@ def test_markers_lie_on_a_surface_whole():
     assert part(on, RED) == pytest.approx(part(flat, RED), rel=0.12)
 
 
+@pytest.mark.parametrize("opacity", [1.0, 0.5])
+def test_rims_are_smooth_of_what_is_translucent_too(opacity, monkeypatch):
+    leaning = np.array([[-0.5, -0.5, 0], [0.5, -0.4, 0], [0.4, 0.5, 0], [-0.6, 0.4, 0]])
+    picture = of(Scene(AHEAD, (replace(square(), points=leaning, opacity=opacity),)))
+    still = image(picture, 300, 300)
+    inside, outside = still[150, 150].astype(int), still[20, 20].astype(int)
+    share = (still[..., 0] - outside[0]) / (inside[0] - outside[0])
+    shades = {round(8 * s) for s in share.ravel().tolist()}
+    assert shades == set(range(9))  # every number of the samples of a pixel
+    assert np.abs(8 * share - np.round(8 * share)).max() < 0.2
+    monkeypatch.setattr(raster, "MANY", 0)
+    for other in (image(picture, 300, 300), image(picture, 300, 300, is_frame=True)):  # all samples at once, if it can
+        assert np.abs(other.astype(int) - still).mean() < 0.5
+
+
 def test_painting_again_leaves_nothing_behind():
     empty = image(of(Scene(AHEAD)), 300, 300)
     image(of(Scene(AHEAD, (square(),), markers=(markers([[0, 0, 0]], opacity=0.5),))), 300, 300)

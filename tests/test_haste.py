@@ -123,6 +123,28 @@ def test_parts_are_those_of_the_graph(links):
     assert len(np.unique(found)) == count == len(np.unique(np.stack([found, wanted]), axis=1).T)
 
 
+@pytest.mark.parametrize("samples", [0, 8])
+def test_translucent_surfaces_are_seen_with_any_number_of_samples(plotter, samples):
+    camera = Camera(np.array([0.0, 0.0, 5.0]), np.zeros(3), np.array([0.0, 1.0, 0.0]))
+    red = Faces(np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]), np.array([4]), np.arange(4), (1, 0, 0))
+    painter, middles = vtk.ScenePainter(plotter), []
+    painter.background((1.0, 1.0, 1.0))
+    for opacity in (0.0, 0.5, 1.0):
+        scene = Scene(camera, (replace(red, opacity=opacity),))
+        painter.paint(scene, 240)
+        painter.look(camera)
+        painter.clip(scene)
+        plotter.render_window.SetMultiSamples(samples)
+        painter.hasten(False)
+        plotter.render_window.Render()
+        middles.append(np.array(plotter.screenshot(return_img=True))[120, 150].astype(int))
+    plotter.render_window.SetMultiSamples(0)
+    painter.close()
+    painter.renderer.RemoveAllViewProps()
+    assert np.abs(2 * middles[1] - middles[0] - middles[2]).max() <= 2
+    assert np.abs(middles[2] - middles[0]).max() > 200
+
+
 @pytest.mark.parametrize("window", [(0.0, 0.0, 1.0), (0.3, -0.2, 0.5)], ids=["whole", "through the magnifier"])
 @pytest.mark.parametrize("camera", [OBLIQUE, PARALLEL], ids=["perspective", "parallel"])
 def test_a_nudged_picture_is_the_same_so_many_pixels_further(plotter, camera, window):

@@ -84,10 +84,10 @@ def gif(
     progress: Callable[[float], None] = lambda done: None,
 ) -> bytes:
     """The bytes of the file.  ``look`` changes every picture, for instance its background."""
-    palette = _palette([image(look(seen(s.state)), width, height) for s in _telling(played)])
+    palette = _palette([_frame(s, width, height, look) for s in _telling(played)])
     frames = []
     for k, shot in enumerate(played):
-        frames.append(_indexed(image(look(seen(shot.state)), width, height, transparent=transparent), palette))
+        frames.append(_indexed(_frame(shot, width, height, look, transparent=transparent), palette))
         progress((k + 1) / len(played))
     out = BytesIO()
     frames[0].save(
@@ -95,6 +95,12 @@ def gif(
         duration=[round(100 * s.seconds) * 10 for s in played], **({"transparency": COLOURS} if transparent else {}),
     )  # fmt: skip
     return out.getvalue()
+
+
+def _frame(
+    shot: Shot, width: int, height: int, look: Callable[[Picture], Picture], *, transparent: bool = False
+) -> Pixels:
+    return image(look(seen(shot.state)), width, height, transparent=transparent, is_frame=True)
 
 
 def film(
@@ -119,7 +125,7 @@ def film(
         try:
             for k, shot in enumerate(played):
                 due += FINE * shot.seconds
-                frame = np.ascontiguousarray(image(look(seen(shot.state)), width, height)[..., :3]).tobytes()
+                frame = np.ascontiguousarray(_frame(shot, width, height, look)[..., :3]).tobytes()
                 for _ in range(max(round(due), 1)):
                     encoder.stdin.write(frame)
                 due -= max(round(due), 1)

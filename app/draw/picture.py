@@ -170,6 +170,11 @@ class Scene:
     remark: str = ""
     is_hasty: bool = False
 
+    @property
+    def is_translucent(self) -> bool:
+        """Whether there are surfaces through which others are seen."""
+        return any(faces.opacity < 1 for faces in self.faces)
+
 
 @dataclass(frozen=True)
 class Box:

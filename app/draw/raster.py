@@ -22,8 +22,12 @@ from app.draw.flat import FLAT, Disc, Part, Polygon
 from app.draw.layout import fitted, overlay, pane_areas
 from app.draw.picture import Colour, Picture, Scene
 from app.draw.primitives import ANCHOR, RIM, Area, Mark, Plate, Primitive, Stroke, Text
+from app.draw.samples import PLACES, Mean
 from app.draw.type import measure, path
 from subdivision.arrays import Floats
+
+MANY = 20_000
+"""With more faces a scene is drawn once for all samples of a pixel."""
 
 Pixels = NDArray[np.uint8]
 """(height, width, 4): red, green, blue, opacity."""
@@ -34,9 +38,19 @@ _QUARTER = 0.5522847498307936
 
 
 def image(
-    picture: Picture, width: int, height: int, *, transparent: bool = False, words: bool = True, flat: bool = False
+    picture: Picture,
+    width: int,
+    height: int,
+    *,
+    transparent: bool = False,
+    words: bool = True,
+    flat: bool = False,
+    is_frame: bool = False,
 ) -> Pixels:
-    """The picture at a size in pixels; ``words`` includes the caption; ``flat`` fills shapes in, in any thread."""
+    """The picture at a size in pixels; ``words`` includes the caption.
+
+    ``flat`` fills shapes in, in any thread.  A frame of a film takes half as long, and what is translucent is jagged.
+    """
     canvas = _AGG(width, height, 72)
     pixels = np.asarray(canvas.buffer_rgba())
     pixels[:] = (0, 0, 0, 0) if transparent else (*_bytes(picture.background), 255)
@@ -49,7 +63,14 @@ def image(
             draw(canvas, pane.content, area, height)
             continue
         x, y, w, h = area
-        seen = studio.picture(pane.content, picture.background, (int(w), int(h)), height, transparent=transparent)
+        seen = studio.picture(
+            pane.content,
+            picture.background,
+            (int(w), int(h)),
+            height,
+            transparent=transparent,
+            at_once=(is_frame or _is_much(pane.content)) and not pane.content.is_translucent,
+        )
         pixels[int(y) : int(y + h), int(x) : int(x + w)] = seen
     brush = Brush(canvas, Affine2D().scale(1, -1).translate(0, height))
     for each in overlay(picture, width, height, words=words):
@@ -67,6 +88,11 @@ def painted(flat: Iterable[Primitive], area: Area, scale: float) -> Pixels:
     return np.array(canvas.buffer_rgba())
 
 
+def _is_much(scene: Scene) -> bool:
+    """Whether it takes long to draw a scene for each sample of a pixel."""
+    return sum(len(faces.sizes) for faces in scene.faces) > MANY
+
+
 class _Studio:
     """The off-screen window."""
 
@@ -75,37 +101,52 @@ class _Studio:
         from vtkmodules.vtkCommonCore import vtkLogger
         from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
-        from app.draw.vtk import SAMPLES, ScenePainter
+        from app.draw.vtk import ScenePainter
 
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # a DISPLAY that leads nowhere is not worth a warning
         self._plotter = pyvista.Plotter(off_screen=True, lighting="none", border=False)
         window: Any = self._plotter.render_window
         window.SetAlphaBitPlanes(1)
-        window.SetMultiSamples(SAMPLES)
         self._window = window
         self._painter = ScenePainter(self._plotter)
         self._filter = vtkWindowToImageFilter
 
     def picture(
-        self, scene: Scene, background: Colour, size: tuple[int, int], height: float, *, transparent: bool
+        self,
+        scene: Scene,
+        background: Colour,
+        size: tuple[int, int],
+        height: float,
+        *,
+        transparent: bool,
+        at_once: bool,
     ) -> Pixels:
-        """A scene alone; ``height`` is the whole picture's."""
+        """A scene alone; ``height`` is the whole picture's; ``at_once``: drawn once for all samples of a pixel."""
         self._window.SetSize(*size)
+        self._window.SetMultiSamples(len(PLACES) if at_once else 0)
         self._painter.background((0.0, 0.0, 0.0) if transparent else background)
         self._painter.renderer.SetBackgroundAlpha(0.0 if transparent else 1.0)
         self._painter.look(fitted(scene.camera, (0.0, 0.0, *size)))
         self._painter.paint(scene, height)
         self._painter.clip(scene)
-        self._window.Render()
-        pixels = self._grabbed(size)
+        pixels = self._grabbed(size) if at_once else self._one_by_one(size)
         if transparent:
             return _unmultiplied(pixels)
         pixels[..., 3] = 255
         return pixels
 
+    def _one_by_one(self, size: tuple[int, int]) -> Pixels:
+        """What is in the window, drawn for each sample of a pixel."""
+        mean = Mean()
+        for place in PLACES:
+            self._painter.nudge(*place)
+            mean.add(self._grabbed(size))
+        return mean.picture()
+
     def _grabbed(self, size: tuple[int, int]) -> Pixels:
         from vtkmodules.util import numpy_support
 
+        self._window.Render()
         to_numpy: Any = numpy_support.vtk_to_numpy
         grab: Any = self._filter()
         grab.SetInput(self._window)

@@ -27,9 +27,6 @@ from app.draw.solid import (
 )  # fmt: skip
 from subdivision.arrays import Floats, Indices
 
-SAMPLES = 8
-"""Multisampling of stills."""
-
 NEAR = 0.05
 """A surface that begins so far from the camera, compared with where it ends, is in front of all that is cut off."""
 
@@ -50,7 +47,7 @@ class ScenePainter:
         self.renderer.camera_set = True  # else pyvista moves the camera before its first picture
         self._window = plotter.render_window
         self._over = _layer_above(self.renderer, self._window)
-        self._is_hasty = False
+        self._is_hasty = self._is_translucent = False
         self._middle = 0.0, 0.0
         self._faces: list[_Surface] = []
         self._lines: list[_Strokes] = []
@@ -64,7 +61,8 @@ class ScenePainter:
     def paint(self, scene: Scene, height: float) -> None:
         """Show ``scene``; ``height`` in pixels is the whole picture's, so that strokes scale with it."""
         point = height / 1000
-        self.renderer.SetUseDepthPeeling(any(f.opacity < 1 for f in scene.faces))
+        self._is_translucent = scene.is_translucent
+        self._peel()
         for faces, surface in _pooled(scene.faces, self._faces, _Surface, self.renderer):
             surface.hasten(self._is_hasty)
             surface.show(faces, is_hasty=scene.is_hasty)
@@ -137,12 +135,17 @@ class ScenePainter:
         rest.
         """
         self._is_hasty = is_hasty
+        self._peel()
         for renderer in (self.renderer, self._over):
             renderer.SetUseOIT(not is_hasty)
         for glyphs in self._markers.values():
             glyphs.hasten(is_hasty)
         for surface in self._faces:
             surface.hasten(is_hasty)
+
+    def _peel(self) -> None:
+        """Draw translucent surfaces from the back to the front; VTK shows none of them with several samples at once."""
+        self.renderer.SetUseDepthPeeling(self._is_translucent and self._window.GetMultiSamples() == 0)
 
     def background(self, colour: Colour) -> None:
         self.renderer.SetBackground(*colour)

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import QWidget
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 
+from app.draw.samples import PLACES, Mean
 from app.gui.turns import Turns
 
 DPI = 72
@@ -25,9 +26,6 @@ DPI = 72
 
 OPAQUE = np.frombuffer(bytes((0, 0, 0, 255)), dtype=np.uint32)
 """A pixel of which nothing shines through."""
-
-PLACES = np.array([(1, -3), (-1, 3), (5, 1), (-3, -5), (-5, 5), (-7, -1), (3, 7), (7, -7)]) / 16
-"""Where in a pixel its samples are, right and up from its middle: no two of them in one column or row."""
 
 QUICK = 0.030
 """Seconds of the processor that a picture takes at most whose samples are taken one after another."""
@@ -90,14 +88,13 @@ class Canvas(QWidget):
         painter.end()
 
     def _smoothed(self) -> Iterator[None]:
-        total: Any = np.uint16(len(PLACES) // 2)  # rounds
-        for right, up in PLACES.tolist():
-            self._nudge(right, up)
-            rows = self._drawn()
+        mean = Mean()
+        for place in PLACES:
+            self._nudge(*place)
+            mean.add(self._drawn().view(np.uint8))
             self._nudge(0.0, 0.0)
-            total += rows.view(np.uint8)
             yield
-        self._rows = (total // len(PLACES)).astype(np.uint8).view(np.uint32)
+        self._rows = mean.picture().view(np.uint32)
         self._is_stale, self.samples = False, len(PLACES)
         self.update()
 

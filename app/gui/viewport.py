@@ -50,6 +50,8 @@ PAUSE = 500
 """Milliseconds without the wheel after which zooming on is another change."""
 
 SAMPLES = 8
+"""How many a graphics card takes of each pixel; a processor that does its work half of them."""
+
 TRACK = 4.0
 """Pixels: a press that moves less is a click."""
 

@@ -11,8 +11,8 @@ from PySide6.QtGui import QImage, QKeySequence, QOpenGLContext, QSurface
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from app.draw.samples import PLACES
 from app.draw.theme import THEMES
-from app.gui.canvas import PLACES
 from app.gui.keys import COMMANDS, spelled_keys
 from app.gui.session import Session
 from app.gui.sheets import rows
