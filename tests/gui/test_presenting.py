@@ -129,8 +129,9 @@ def test_the_magnifier_shows_panes_and_flat_parts_twice_as_large_about_the_mouse
     assert unlike(pixels(window), small, x, y) < 0.03
     assert unlike(small, small, x, y) > 0.03
     press(window, Key.Key_Escape)
-    qtbot.wait(400)
     assert not window.viewport.is_magnified
+    qtbot.waitUntil(lambda: window.viewport.samples == 1)
+    qtbot.waitUntil(lambda: window.viewport.samples > 1)
     assert np.mean(np.abs(pixels(window) - small).max(axis=2) > 60) < 0.001
 
 
