@@ -241,13 +241,13 @@ def _dotted(markers: Markers, at: Floats, wear: Wear) -> list[Markers]:
 
 def _groups(at: Floats, wear: Wear) -> list[tuple[Indices, Colour]]:
     """Rows that are nearly at one place of the scale, the same ones in every theme, and their colour."""
-    kinds, owner = np.unique(np.nan_to_num(np.round(at * TONES), nan=-1.0), return_inverse=True)
-    found = []
-    for k in range(len(kinds)):
-        rows = np.flatnonzero(owner == k)
-        r, g, b = wear(at[rows].mean(keepdims=True))[0].tolist()
-        found.append((rows, (r, g, b)))
-    return found
+    if not len(at):
+        return []
+    tones = np.nan_to_num(np.round(at * TONES), nan=-1.0)
+    _, owner, counts = np.unique(tones, return_inverse=True, return_counts=True)
+    colours = wear(np.bincount(owner, weights=at) / counts).tolist()
+    rows = np.split(np.argsort(owner, kind="stable"), np.cumsum(counts)[:-1])
+    return [(some, (r, g, b)) for some, (r, g, b) in zip(rows, colours, strict=True)]
 
 
 def _shrunk(markers: Markers) -> Markers:
