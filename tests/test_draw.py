@@ -391,6 +391,15 @@ def test_markers_lie_on_a_surface_whole():
     assert part(on, RED) == pytest.approx(part(flat, RED), rel=0.12)
 
 
+@pytest.mark.parametrize("is_frame", [False, True])
+def test_translucent_strokes_are_smooth(is_frame):
+    line = Lines(np.array([[-0.6, -0.4, 0], [0.6, 0.5, 0]]), np.array([[0, 1]]), BLACK, 40.0, 0.5)
+    shades = np.unique(image(of(Scene(AHEAD, lines=(line,))), 300, 300, is_frame=is_frame)[..., 0])
+    assert shades.max() == 255
+    assert len(shades) >= 5  # beside the stroke, on it, and between
+    assert np.diff(shades.astype(int)).max() < 40
+
+
 @pytest.mark.parametrize("opacity", [1.0, 0.5])
 def test_rims_are_smooth_of_what_is_translucent_too(opacity, monkeypatch):
     leaning = np.array([[-0.5, -0.5, 0], [0.5, -0.4, 0], [0.4, 0.5, 0], [-0.6, 0.4, 0]])

@@ -49,7 +49,7 @@ def image(
 ) -> Pixels:
     """The picture at a size in pixels; ``words`` includes the caption.
 
-    ``flat`` fills shapes in, in any thread.  A frame of a film takes half as long, and what is translucent is jagged.
+    ``flat`` fills shapes in, in any thread.  A frame of a film takes half as long and is not as smooth.
     """
     canvas = _AGG(width, height, 72)
     pixels = np.asarray(canvas.buffer_rgba())

@@ -1,7 +1,7 @@
 """Smooth pictures from several jagged ones, each of which is nudged by another part of a pixel.
 
-Several samples of each pixel at once are OpenGL's own way.  It leaves what is translucent jagged, and a processor that
-does the work of a graphics card takes longer over it.
+Several samples of each pixel at once are OpenGL's own way.  VTK draws no translucent surfaces so, and a processor that
+does the work of a graphics card has four samples at most and takes longer over them.
 """
 
 from typing import Any

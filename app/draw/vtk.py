@@ -62,7 +62,7 @@ class ScenePainter:
         """Show ``scene``; ``height`` in pixels is the whole picture's, so that strokes scale with it."""
         point = height / 1000
         self._is_translucent = scene.is_translucent
-        self._peel()
+        self._blend()
         for faces, surface in _pooled(scene.faces, self._faces, _Surface, self.renderer):
             surface.hasten(self._is_hasty)
             surface.show(faces, is_hasty=scene.is_hasty)
@@ -131,21 +131,24 @@ class ScenePainter:
         """Draw quickly what moves.
 
         Markers have fewer triangles, light on small surfaces is worked out at corners only, and of closed ones the far
-        side is left out; what is translucent is blended as it comes and not by weight, which takes as long as all the
-        rest.
+        side is left out.
         """
         self._is_hasty = is_hasty
-        self._peel()
-        for renderer in (self.renderer, self._over):
-            renderer.SetUseOIT(not is_hasty)
+        self._blend()
         for glyphs in self._markers.values():
             glyphs.hasten(is_hasty)
         for surface in self._faces:
             surface.hasten(is_hasty)
 
-    def _peel(self) -> None:
-        """Draw translucent surfaces from the back to the front; VTK shows none of them with several samples at once."""
-        self.renderer.SetUseDepthPeeling(self._is_translucent and self._window.GetMultiSamples() == 0)
+    def _blend(self) -> None:
+        """Draw translucent surfaces from the back to the front, or by weight where VTK shows none so: with many samples.
+
+        What else is translucent is drawn as it comes: by weight it would be jagged, and take long.
+        """
+        is_single = self._window.GetMultiSamples() == 0
+        self.renderer.SetUseDepthPeeling(self._is_translucent and is_single)
+        for renderer in (self.renderer, self._over):
+            renderer.SetUseOIT(self._is_translucent and not is_single)
 
     def background(self, colour: Colour) -> None:
         self.renderer.SetBackground(*colour)
