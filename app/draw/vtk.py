@@ -141,7 +141,7 @@ class ScenePainter:
             surface.hasten(is_hasty)
 
     def _blend(self) -> None:
-        """Draw translucent surfaces from the back to the front, or by weight where VTK shows none so: with many samples.
+        """Blend translucent surfaces from the back to the front, or, as VTK must with several samples, by weight.
 
         What else is translucent is drawn as it comes: by weight it would be jagged, and take long.
         """
