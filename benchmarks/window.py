@@ -114,7 +114,7 @@ class Pair:
         self.app.processEvents()
         drawn, end, start = self.drawn, time.perf_counter() + 5, time.process_time()
         wish()
-        while self.drawn == drawn and time.perf_counter() < end:
+        while (self.drawn == drawn or self.window.viewport.canvas.is_awaited) and time.perf_counter() < end:
             self.app.processEvents()
         return time.process_time() - start
 

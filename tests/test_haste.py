@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 
 from app.draw import vtk
 from app.draw.geometry import _parts
-from app.draw.picture import Camera, Faces, Scene
+from app.draw.picture import Camera, Faces, Markers, Scene, Shape
 from subdivision import Mesh, shapes, trace
 from subdivision.schemes import QUAD_CENTROID, TRIANGLE_CENTROID
 
@@ -165,3 +165,26 @@ def test_a_nudged_picture_is_the_same_so_many_pixels_further(plotter, camera, wi
         assert np.ptp(moved) > 50
         assert np.mean(np.abs(moved - other) > 2) < 1e-3  # but where a pixel's middle is on a rim
     assert np.mean(np.abs(right - still) > 2) > 1e-3
+
+
+@pytest.mark.parametrize("shape", [Shape.SPHERE, Shape.HALO])
+@pytest.mark.parametrize("camera", [OBLIQUE, PARALLEL], ids=["perspective", "parallel"])
+def test_a_ball_that_moves_is_as_round_as_its_corners_let_it_be(plotter, camera, shape):
+    places = np.stack(np.meshgrid(*3 * [[-1.5, 0.0, 1.5]]), axis=-1).reshape(-1, 3)
+    n, pictures = len(places), []
+    balls = Markers(places, shape, (0.8, 0.3, 0.1), np.full(n, 0.2), np.ones(n), np.full(n, -1))
+    for is_hasty in (False, True):
+        painter = vtk.ScenePainter(plotter)
+        painter.background((1.0, 1.0, 1.0))
+        painter.hasten(is_hasty)
+        for seen in (replace(camera, position=-camera.position), camera):
+            painter.paint(Scene(seen, markers=(balls,)), 240)
+            painter.look(seen)
+            painter.clip(Scene(seen, markers=(balls,)))
+            plotter.render_window.Render()
+        pictures.append((np.array(plotter.screenshot(return_img=True)) < 250).any(axis=2))
+        painter.close()
+        painter.renderer.RemoveAllViewProps()
+    still, moving = pictures
+    assert still.sum() > 3000
+    assert (still ^ moving).sum() < 0.1 * still.sum()

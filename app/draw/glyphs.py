@@ -29,6 +29,13 @@ QUICK, FEWEST, FAINTEST = 0.35, 6, 5
 """The part of these corners that there is while a processor draws what moves; at least so many; and so many at most
 where markers are hidden."""
 
+CAP, RIM = (50.0, 100.0), (38.0, 58.0, 78.0, 104.0)
+"""Where the rings of corners of half a ball are, and of its rim, in degrees from its middle: the last a little beyond
+the half, as most balls are not in the middle of the picture."""
+
+CUT = 0.98
+"""How large their outlines are, as flat triangles cut something off."""
+
 
 def resolution(n: int, *, is_hasty: bool = False) -> int:
     """Corners to the outline of each of ``n`` markers: the graphics card's work grows slower than their number."""
@@ -41,11 +48,14 @@ class Glyphs:
     def __init__(self, shape: Shape, *, solid: bool) -> None:
         self.shape = shape
         self.data = vtkPolyData()
+        self._caps = [_Cap()] if shape in (Shape.SPHERE, Shape.HALO) else []
+        self._caps += [_Cap(HALO_RADIUS, rim=True)] if shape is Shape.HALO else []
         self.drawn = [_Instances(self.data, partial(_glyph, shape), translucent=not solid)]
         self.drawn += [_Instances(self.data, partial(_sphere, HALO_RADIUS), rim=True)] if shape is Shape.HALO else []
         self.faint = _Instances(self.data, partial(_glyph, shape), colour="faint", translucent=True)
         self._largest = 0.0
         self._corners, self._is_quick = FINE, False
+        self._axes: Floats | None = None
 
     def join(self, renderer: Any, over: Any) -> None:
         for instances in self.drawn:
@@ -68,11 +78,21 @@ class Glyphs:
         self._is_quick = is_hasty
         self._model()
 
+    def face(self, axes: Floats) -> None:
+        """These are right, up and towards the eye, (3, 3)."""
+        if axes is not self._axes:
+            self._axes = axes
+            self._model()
+
     def _model(self) -> None:
         part = QUICK if self._is_quick else 1.0
         corners = min(self._corners, max(round(part * self._corners), FEWEST))
-        for instances in self.drawn:
-            instances.model(corners)
+        if self._is_quick and self._axes is not None and self._caps:
+            for instances, cap in zip(self.drawn, self._caps, strict=True):
+                instances.show(cap.turned(corners, self._axes))
+        else:
+            for instances in self.drawn:
+                instances.model(corners)
         self.faint.model(min(corners, FAINTEST if self._is_quick else COARSE))
 
     def show(self, markers: Sequence[Markers], *, solid: bool, is_hasty: bool = False) -> None:
@@ -118,7 +138,7 @@ class _Instances:
     ) -> None:
         self.mapper, self.actor = vtkGlyph3DMapper(), vtkActor()
         self.mapper.SetInputData(data)
-        self.source, self._corners = source, 0
+        self.source, self._shown = source, None
         self.model(FINE)
         self.mapper.SetScaleModeToScaleByMagnitude()
         self.mapper.SetScaleArray("radius")
@@ -140,9 +160,36 @@ class _Instances:
 
     def model(self, corners: int) -> None:
         """Draw each marker with so many corners to its outline."""
-        if corners != self._corners:  # VTK would prepare the same solid again
+        self.show(self.source(corners, get_ident()))  # threads share no object of VTK's
+
+    def show(self, solid: Any) -> None:
+        """Draw each marker as this."""
+        if solid is not self._shown:  # VTK would prepare the same one again
+            self._shown = solid
+            self.mapper.SetSourceData(solid)
+
+
+class _Cap:
+    """Of a ball the part that is seen, or of that the ``rim``: the same outline from a third of the triangles."""
+
+    def __init__(self, radius: float = 1.0, *, rim: bool = False) -> None:
+        self.data = vtkPolyData()
+        self._radius, self._is_rim = radius, rim
+        self._corners = 0
+        self._axes: Floats | None = None
+
+    def turned(self, corners: int, axes: Floats) -> Any:
+        """With so many corners to its outline; ``axes`` are right, up and towards the eye."""
+        normals, triangles = _cap(corners, rim=self._is_rim)
+        if axes is not self._axes or corners != self._corners:
+            turned = normals @ axes
+            self.data.SetPoints(vtk_arrays.points(self._radius / CUT * turned))
+            self.data.GetPointData().SetNormals(vtk_arrays.array(turned))
+            self._axes = axes
+        if corners != self._corners:
+            self.data.SetPolys(vtk_arrays.cells(triangles))
             self._corners = corners
-            self.mapper.SetSourceData(self.source(corners, get_ident()))  # threads share no object of VTK's
+        return self.data
 
 
 def finish(actor: Any, *, ambient: float, diffuse: float, specular: float) -> None:
@@ -182,6 +229,24 @@ def _sphere(radius: float, corners: int, thread: int) -> Any:
     source.SetPhiResolution(2 * corners // 3)
     source.Update()
     return source.GetOutput()
+
+
+@cache
+def _cap(corners: int, *, rim: bool) -> tuple[Floats, Indices]:
+    """Points of a ball of radius 1 about the last axis, which are its normals too, and the triangles between them.
+
+    They are its middle and rings of corners; a ``rim`` is only what is between the rings.
+    """
+    polar, k = np.radians(RIM if rim else CAP), np.arange(corners)
+    turns = 2 * np.pi * (k + 0.5 * np.arange(len(polar))[:, None]) / corners
+    height, across = np.cos(polar)[:, None], np.sin(polar)[:, None]
+    rings = np.stack(np.broadcast_arrays(across * np.cos(turns), across * np.sin(turns), height), axis=2)
+    found = [] if rim else [np.stack([np.zeros_like(k), 1 + k, 1 + np.roll(k, -1)], axis=1)]
+    for ring in range(len(polar) - 1):
+        inner = 1 + ring * corners + k
+        outer, ahead, beyond = inner + corners, np.roll(inner, -1), np.roll(inner, -1) + corners
+        found += [np.stack([inner, outer, ahead], axis=1), np.stack([ahead, outer, beyond], axis=1)]
+    return np.vstack([[0.0, 0.0, 1.0], rings.reshape(-1, 3)]), np.concatenate(found)
 
 
 def _torus(radius: float, thickness: float, corners: int) -> Any:

@@ -8,7 +8,7 @@ they are smooth.
 import numpy as np
 
 from app.draw.geometry import facets
-from app.draw.picture import Camera, Colour, Faces, Lines, unit
+from app.draw.picture import Camera, Colour, Faces, Lines
 from subdivision.arrays import Floats
 
 LIGHT = np.array([0.48, -0.36, 0.8])
@@ -31,8 +31,7 @@ def isophotes(faces: Faces, colour: Colour, width: float) -> Lines:
 def reflections(faces: Faces, camera: Camera, colour: Colour, width: float) -> Lines:
     """Upright lamps all round, as an eye far away in the direction of the lesson's camera sees them in a close mesh."""
     cut = facets(faces)
-    back = unit(camera.position - camera.focal)
-    right = unit(np.cross(camera.up, back))
+    right, _, back = camera.axes
     seen = 2 * (cut.normals @ back)[:, None] * cut.normals - back
     way = np.degrees(np.arctan2(seen @ right, seen @ back))[cut.triangles]
     over = np.ptp(way, axis=1, keepdims=True) > 180  # straight behind the surface the angles begin anew

@@ -118,9 +118,9 @@ class Camera:
 
     def project(self, points: Floats, width: float, height: float) -> Floats:
         """(n, 3): pixels right and down from the upper left, and depth away from the eye."""
-        ahead, right, above = self._axes
+        right, above, back = self.axes
         away = np.asarray(points, dtype=float).reshape(-1, 3) - self.position
-        depth = away @ ahead
+        depth = -(away @ back)
         half = (
             np.full(len(away), self.scale)
             if self.scale
@@ -131,17 +131,17 @@ class Camera:
 
     def place(self, x: float, y: float, depth: float, width: float, height: float) -> Floats:
         """(3,): what ``project`` sends to a pixel and a depth."""
-        ahead, right, above = self._axes
+        right, above, back = self.axes
         half = self.scale or depth * np.tan(np.radians(self.angle) / 2)
         aside, up = (2 * x - width) / height * half, (height - 2 * y) / height * half
-        return np.asarray(self.position + depth * ahead + aside * right + up * above)
+        return np.asarray(self.position - depth * back + aside * right + up * above)
 
     @cached_property
-    def _axes(self) -> tuple[Floats, Floats, Floats]:
-        """Ahead, right and above, each of length one."""
-        ahead = unit(self.focal - self.position)
-        right = unit(np.cross(ahead, self.up))
-        return ahead, right, np.cross(right, ahead)
+    def axes(self) -> Floats:
+        """(3, 3): right, up and towards the eye, each of length one."""
+        back = unit(self.position - self.focal)
+        right = unit(np.cross(self.up, back))
+        return np.stack([right, np.cross(back, right), back])
 
 
 @dataclass(frozen=True)

@@ -58,15 +58,6 @@ class _View:
         half = np.full(len(depth), self.camera.scale) if self.camera.scale else np.maximum(depth, 1e-9) * tangent
         return np.asarray(self.area[3] / 2 / half)
 
-    @property
-    def axes(self) -> Floats:
-        """(3, 3): right, up, towards the eye."""
-        back = self.camera.position - self.camera.focal
-        back = back / np.linalg.norm(back)
-        right = np.cross(self.camera.up, back)
-        right = right / np.linalg.norm(right)
-        return np.stack([right, np.cross(back, right), back])
-
 
 def projected(scene: Scene, area: Area, height: float, name: str) -> Iterator[str]:
     """The group of a scene in its pane; ``name`` is that of the pane's outline."""
@@ -111,7 +102,7 @@ def _surfaces(scene: Scene, view: _View, owners: Indices) -> Iterator[str]:
 
 def _polygons(faces: Faces, view: _View) -> Iterator[tuple[int, str, float]]:
     flat = view.project(faces.points)
-    facing = normals(faces) @ view.axes.T
+    facing = normals(faces) @ view.camera.axes.T
     facing = facing * np.where(facing[:, 2:] < 0, -1.0, 1.0)
     glow = lit(facing, SURFACE_LIGHT)
     ends = np.cumsum(faces.sizes)
@@ -161,7 +152,7 @@ def _markers(groups: Iterable[Markers], view: _View) -> Iterator[str]:
         front = flat[:, 2] - m.radius  # of two at one place the larger is seen
         for (x, y, _), away, r, opacity, is_seen in zip(flat, front, size, m.opacity, shown, strict=True):
             strength = float(opacity) if is_seen else HIDDEN * float(opacity)
-            inner = "".join(_marker(m.shape, m.colour, float(r), view.axes))
+            inner = "".join(_marker(m.shape, m.colour, float(r), view.camera.axes))
             faint = f' opacity="{number(strength)}"' if strength < 1 else ""
             found.append((-away, f'<g transform="translate({number(x)} {number(y)})"{faint}>{inner}</g>'))
     yield from (text for _, text in sorted(found, key=lambda one: one[0]))

@@ -17,7 +17,7 @@ from app.draw import vtk_arrays
 from app.draw.geometry import dashes, facets, is_outward, shells, worn
 from app.draw.glow import glow
 from app.draw.glyphs import Glyphs, finish
-from app.draw.picture import Camera, Colour, Faces, Lines, Scene, Shape, unit
+from app.draw.picture import Camera, Colour, Faces, Lines, Scene, Shape
 from app.draw.primitives import Area
 from app.draw.regular import Facets
 from app.draw.solid import (
@@ -92,6 +92,8 @@ class ScenePainter:
         self._over.SetActiveCamera(there)
         for surface in self._faces:
             surface.light(camera)
+        for glyphs in self._markers.values():
+            glyphs.face(camera.axes)
 
     def nudge(self, right: float, up: float) -> None:
         """Everything is so many pixels further right and up than it is where the camera stands."""
@@ -104,8 +106,8 @@ class ScenePainter:
         points = [p.points for group in (scene.faces, scene.lines, scene.markers) for p in group if len(p.points)]
         if points:
             margin = 2.5 * max((float(m.radius.max()) for m in scene.markers if len(m.radius)), default=0.0)
-            low = [min(float(p[:, k].min()) for p in points) - margin for k in range(3)]
-            high = [max(float(p[:, k].max()) for p in points) + margin for k in range(3)]
+            every = np.concatenate(points)
+            low, high = every.min(axis=0) - margin, every.max(axis=0) + margin
             for renderer in (self.renderer, self._over):
                 renderer.ResetCameraClippingRange(low[0], high[0], low[1], high[1], low[2], high[2])
             camera = self.renderer.GetActiveCamera()
@@ -237,7 +239,7 @@ class _Surface:
             return False
         if self._is_outward is None:
             self._is_outward = is_outward(cut, self._shells)
-        depth = (cut.points - camera.position) @ unit(camera.focal - camera.position)
+        depth = (camera.position - cut.points) @ camera.axes[2]
         return self._is_outward and bool(camera.scale > 0 or depth.min() > NEAR * depth.max())
 
 

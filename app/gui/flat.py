@@ -83,14 +83,14 @@ class Flat(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         self._below()
-        self._renew()
+        self.renew()
         with QPainter(self) as painter:
             if self._is_blank:
                 painter.fillRect(self.rect(), Qt.GlobalColor.black)
             else:
                 painter.drawPixmap(0, 0, self._sheet)
 
-    def _renew(self) -> None:
+    def renew(self) -> None:
         """Paint on the sheet what has changed, or begin to."""
         if self._haste.are_left:
             return  # it is called again when that is over

@@ -112,7 +112,7 @@ class Viewport(QWidget):
         self._plotter.setAcceptDrops(False)
         self._painters = [ScenePainter(self._plotter, 1 + k) for k in range(PANES)]
         self._plotter.renderers[0].SetViewport(0, 0, 1, 1)  # clears what no pane covers
-        self._put_up(Canvas(self, self._plotter, self._nudge) if self._is_soft else self._plotter)
+        self._put_up(Canvas(self, self._plotter, self._nudge, self._flat.renew) if self._is_soft else self._plotter)
         self.show_state(self._state)
 
     def _put_up(self, canvas: QWidget) -> None:
@@ -302,6 +302,8 @@ class Viewport(QWidget):
                 self._draw_at(samples=0, is_hasty=True)
                 self._calm.start()
             self._refresh()
+            if self._is_soft:
+                self.canvas.begin()
         is_between = self._state.is_playing and self._state.at != int(self._state.at)
         self._kept = self._kept if is_between else Kept()
         flat = overlay(self._picture, self.width(), self._tall(), cameras=self.cameras(), words=False, kept=self._kept)

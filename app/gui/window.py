@@ -120,6 +120,7 @@ class Window(QMainWindow):
         self.setAcceptDrops(True)
         self.setMinimumSize(720, 480)
         self._theme = ""
+        self._played: tuple[bool, str] | None = None
         self.actions_by_id = {c.id: self._action(c.id) for c in COMMANDS}
         self.viewport = Viewport(session)
         self.banner, self.presenter = Banner(session), Presenter(session)
@@ -162,6 +163,12 @@ class Window(QMainWindow):
             for view in self._views:
                 with apart():  # a panel that fails keeps no other from showing the state
                     view.show_state(state)
+        self._act(state)
+        if state.options.presenting != self._is_presenting:
+            self._present(state.options.presenting)
+
+    def _act(self, state: State) -> None:
+        """What can be done, and what is on."""
         for id_, action in self.actions_by_id.items():
             if (on := BY_ID[id_].on) is not None:
                 action.setChecked(on(state.options))
@@ -172,9 +179,10 @@ class Window(QMainWindow):
         for id_, *_ in (*EDITS, *SHARPNESS):
             self.actions_by_id[id_].setEnabled(bench.is_open(state))
         self._star()
-        self.actions_by_id["play"].setIcon(icon("pause" if state.is_playing else "play", state.options.theme))
-        if state.options.presenting != self._is_presenting:
-            self._present(state.options.presenting)
+        playing = state.is_playing, state.options.theme
+        if playing != self._played:
+            self._played = playing
+            self.actions_by_id["play"].setIcon(icon("pause" if state.is_playing else "play", state.options.theme))
 
     @property
     def is_changing(self) -> bool:
@@ -224,6 +232,7 @@ class Window(QMainWindow):
         for id_, action in self.actions_by_id.items():
             if name := BY_ID[id_].icon:
                 action.setIcon(icon(name, theme))
+        self._played = None
         line = colour(line_of(THEMES[theme])).name()
         for hairline in self._hairlines:
             hairline.setStyleSheet(f"background: {line}")

@@ -17,7 +17,20 @@ from app.gui.keys import COMMANDS, spelled_keys
 from app.gui.session import Session
 from app.gui.sheets import rows
 from app.gui.window import Window
-from app.state import axis_of, choose, forward, last, open_lesson, seek, segments, start, stops, toggle, turn_view
+from app.state import (
+    axis_of,
+    choose,
+    first,
+    forward,
+    last,
+    open_lesson,
+    seek,
+    segments,
+    start,
+    stops,
+    toggle,
+    turn_view,
+)
 from lessons import all_lessons
 from subdivision import shapes
 
@@ -348,6 +361,23 @@ def test_what_changes_while_it_becomes_smooth_becomes_smooth_as_it_is_then(qtbot
     qtbot.waitUntil(lambda: view.samples == 1)
     qtbot.waitUntil(lambda: view.samples == len(PLACES))
     np.testing.assert_array_equal(seen(view), before)
+
+
+def test_what_is_shown_is_the_last_of_the_pictures_that_were_begun(window):
+    view, one_by_one = window.viewport, []
+    for step in (last, first):
+        window.session.do(step)
+        assert view.canvas.is_awaited  # its pixels are filled in while the window does what else there is to do
+        QApplication.processEvents()
+        assert not view.canvas.is_awaited
+        one_by_one.append(seen(view))
+    at_last, at_first = one_by_one
+    assert np.abs(at_last - at_first).mean() > 0.5
+    for step in (last, first, last):
+        window.session.do(step)
+    QApplication.processEvents()
+    assert not view.canvas.is_awaited
+    np.testing.assert_array_equal(seen(view), at_last)
 
 
 @pytest.mark.parametrize("theme", ["light", "dark", "projector"])
