@@ -85,6 +85,8 @@ class Glyphs:
             self._model()
 
     def _model(self) -> None:
+        if not self.faint.actor.GetVisibility():
+            return  # there are none
         part = QUICK if self._is_quick else 1.0
         corners = min(self._corners, max(round(part * self._corners), FEWEST))
         if self._is_quick and self._axes is not None and self._caps:
