@@ -1,12 +1,16 @@
 """The laboratory as values: any object, any rule, any telling; refusals leave everything as it was."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import lessons
 from app import state as st
+from app.draw.compose import compose
+from app.draw.surface import SHOWS
 from app.laboratory import bench
-from app.laboratory.lab import BUDGET, MOST_PANES, Lab, Rule, affordable, lesson_of
+from app.laboratory.lab import BUDGET, MOST_PANES, Lab, Rule, affordable, lab_of, lesson_of
 from subdivision import Boundary, Mesh, TopologyError, catalogue, shapes, subdivide
 
 START = st.start(lessons.find("14"))
@@ -133,3 +137,19 @@ def test_equal_laboratories_tell_equal_stories():
 
 def st_lab(mesh: Mesh):
     return Lab("mine", mesh, (Rule("catmull-clark"),), 1)
+
+
+@pytest.mark.parametrize("fan", [shapes.quad_fan, shapes.triangle_fan])
+def test_where_the_rule_hides_every_face_the_picture_says_so(fan):
+    lab = lab_of(fan(6), "fan")
+    lab = replace(lab, rules=(replace(lab.rules[0], boundary=Boundary.HIDE),))
+    assert lab.rules[0].bounded(lab.control).topology.hidden.all()
+    state = st.start(lesson_of(lab))
+    for kind in ("", *SHOWS):
+        shown = st.choose(st.last(state), surface_shows=kind)
+        for at in np.arange(0.0, shown.at + 0.5, 0.5):
+            (pane,) = compose(replace(shown, at=float(at))).panes
+            assert not pane.content.faces
+            assert "All faces touch the boundary" in pane.content.remark
+            assert np.isfinite(pane.content.camera.position).all()
+            assert pane.content.lines or kind

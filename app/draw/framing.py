@@ -46,7 +46,8 @@ def camera(trace: Trace, look: Look, also: Floats | None = None) -> Camera:
 
 def _looked_at(control: Mesh) -> Floats:
     """(n, 3): the points that must be seen."""
-    if not control.topology.hidden.any():
+    hidden = control.topology.hidden
+    if not hidden.any() or hidden.all():
         return control.points
     shown = control.points[np.unique(shown_faces(control.topology)[1])]
     middle = shown.mean(axis=0)

@@ -180,9 +180,14 @@ def dressed(made: Scene, what: Shown, frame: Frame, state: State, view: View, th
         lines += [reflections(faces, made.camera, theme.ink, BAND * theme.stroke) for faces in made.faces]
     elif kind == "normals" and made.faces:
         lines.append(_quills(frame, theme))
-    is_wanting = bool(kind) and not frame.topology.n_faces
-    remark = what.remark or ("A curve has no surface to show this on." if is_wanting else "")
-    return replace(made, lines=(*made.lines, *lines), remark=remark)
+    return replace(made, lines=(*made.lines, *lines), remark=what.remark or _wanting(frame.topology, kind))
+
+
+def _wanting(t: Connectivity, kind: str) -> str:
+    """Why there is no surface."""
+    if t.n_faces and t.hidden.all():
+        return "All faces touch the boundary, and the boundary rule hides those."
+    return "A curve has no surface to show this on." if kind and not t.n_faces else ""
 
 
 def painted(
