@@ -215,17 +215,6 @@ class Trace:
     def frame(self, at: float) -> Frame:
         """The frame ``at`` stages into the trace; the fraction is progress through a stage."""
         at = min(max(at, 0.0), float(len(self.stages)))
-        if at not in self._frames:
-            self._frames.clear()
-            self._frames[at] = self._at(at)
-        return self._frames[at]
-
-    @cached_property
-    def _frames(self) -> dict[float, Frame]:
-        """The one that was asked for last: a picture asks more than once."""
-        return {}
-
-    def _at(self, at: float) -> Frame:
         k = min(int(at), len(self.stages) - 1) if self.stages else 0
         if at == 0:
             return self._still()

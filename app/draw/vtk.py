@@ -61,6 +61,9 @@ class ScenePainter:
     def paint(self, scene: Scene, height: float) -> None:
         """Show ``scene``; ``height`` in pixels is the whole picture's, so that strokes scale with it."""
         point = height / 1000
+        if self._is_translucent and not scene.is_translucent:
+            for renderer in (self.renderer, self._over):
+                renderer.ReleaseGraphicsResources(self._window)  # blending keeps a dozen pictures as large as this one
         self._is_translucent = scene.is_translucent
         self._blend()
         for faces, surface in _pooled(scene.faces, self._faces, _Surface, self.renderer):
