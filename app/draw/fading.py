@@ -9,10 +9,10 @@ from typing import TypeVar
 
 from app.draw.compose import compose
 from app.draw.motion import eased
-from app.draw.picture import Box, Diagram, Faces, Label, Lines, Link, Markers, Note, Picture, Scene
+from app.draw.picture import Box, Diagram, Faces, Label, Lines, Link, Markers, Note, Picture, Scene, Squares
 from app.state import State
 
-Drawn = TypeVar("Drawn", Faces, Lines, Markers, Label, Box, Link, Note)
+Drawn = TypeVar("Drawn", Faces, Lines, Markers, Label, Box, Squares, Link, Note)
 
 
 def faded(state: State, *, is_hasty: bool = False) -> Picture:
@@ -46,7 +46,8 @@ def _both(before: Scene | Diagram, after: Scene | Diagram, left: float, come: fl
         )
     if isinstance(before, Diagram) and isinstance(after, Diagram) and before.cells == after.cells:
         was, is_ = _pale_diagram(before, left), _pale_diagram(after, come)
-        return replace(is_, boxes=was.boxes + is_.boxes, links=was.links + is_.links, notes=was.notes + is_.notes)
+        return replace(is_, boxes=was.boxes + is_.boxes, squares=was.squares + is_.squares,
+                       links=was.links + is_.links, notes=was.notes + is_.notes)  # fmt: skip
     return before if come < 1 else after
 
 
@@ -65,6 +66,7 @@ def _pale_diagram(diagram: Diagram, part: float) -> Diagram:
     return replace(
         diagram,
         boxes=_pale(diagram.boxes, part),
+        squares=_pale(diagram.squares, part),
         links=_pale(diagram.links, part),
         notes=_pale(diagram.notes, part),
     )

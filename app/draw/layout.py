@@ -15,8 +15,8 @@ import numpy as np
 
 from app.draw import bars, dotted, pins
 from app.draw.labels import Kept, placed
-from app.draw.picture import Box, Camera, Diagram, Dot, Entry, Link, Note, Pane, Picture, Scene
-from app.draw.primitives import LEAST, Area, Mark, Plate, Primitive, Stroke, Text
+from app.draw.picture import Box, Camera, Diagram, Dot, Entry, Link, Note, Pane, Picture, Scene, Squares
+from app.draw.primitives import LEAST, Area, Mark, Plate, Primitive, Stroke, Text, Tiles
 from app.draw.type import measure, wrapped
 
 __all__ = [
@@ -42,6 +42,15 @@ BOX = 34.0
 """The largest type in a box."""
 IN_BOX = 1.18
 """From one baseline to the next in a box, relative to the size of the type."""
+
+CORNER_OF_BOX = 0.14
+"""Radius of the corners of a box, relative to its shorter side."""
+
+SPECK = 2.6
+"""The least side of a square, however small its cell is."""
+
+TILES = 400
+"""So many squares of a diagram at most are one primitive."""
 
 HEAD, SPREAD = 3.6, 0.55
 """How far an arrow's head reaches back, relative to the width of its stroke, and aside, relative to that."""
@@ -344,7 +353,7 @@ def _cells(diagram: Diagram, area: Area, unit: float) -> _Cells:
 def part_at(
     picture: Picture, width: float, height: float, x: float, y: float, words: bool = True
 ) -> tuple[int, Box | Dot] | None:
-    """The box or dot of a diagram under a place of the picture, the topmost, and the number of its pane."""
+    """The box, square or dot of a diagram under a place of the picture, the topmost, and the number of its pane."""
     unit = height / 1000
     areas = pane_areas(picture, width, height, words)
     spreads = _spreads(picture, areas, unit)
@@ -354,6 +363,10 @@ def part_at(
         if k in spreads and (dot := dotted.nearest(pane.content, spreads[k], x, y)) is not None:
             return k, dot
         cells = _cells(pane.content, area, unit)
+        here = np.array([(x - cells.x0) / cells.wide, (y - cells.y0) / cells.tall])
+        for squares in reversed(pane.content.squares):
+            if len(hit := np.flatnonzero((np.abs(squares.places - here) <= squares.side / 2).all(axis=1))):
+                return k, squares.box(hit[-1])
         for part in reversed(pane.content.boxes):
             across, down = (abs(a - b) for a, b in zip(cells.at(part.x, part.y), (x, y), strict=True))
             wide, tall = cells.of(part)
@@ -375,7 +388,16 @@ def _diagram(diagram: Diagram, area: Area, picture: Picture, height: float) -> l
     ]
     size = max(min(NOTE * unit * picture.scale, 0.5 * cells.tall), LEAST * unit)
     notes = [text for n in diagram.notes for text in _note(n, cells.at(n.x, n.y), size, area, margin)]
-    return [*links, *boxes, *notes]
+    return [*links, *boxes, *(tiles for each in diagram.squares for tiles in _tiles(each, cells, SPECK * unit)), *notes]
+
+
+def _tiles(squares: Squares, cells: _Cells, least: float) -> list[Primitive]:
+    """Some hundreds at a time: painters take a rest between two primitives."""
+    wide, tall = (max(each * squares.side, least) for each in (cells.wide, cells.tall))
+    corners = squares.places * (cells.wide, cells.tall) + (cells.x0 - wide / 2, cells.y0 - tall / 2)
+    parts = (slice(k, k + TILES) for k in range(0, len(corners), TILES))
+    radius = CORNER_OF_BOX * min(wide, tall)
+    return [Tiles(corners[part], wide, tall, squares.colours[part], radius, squares.opacity) for part in parts]
 
 
 def _link(link: Link, cells: _Cells, width: float) -> list[Primitive]:
@@ -449,7 +471,7 @@ def _block(text: str) -> tuple[float, float]:
 
 def _box(box: Box, cells: _Cells, said: str, size: float, line: float) -> list[Primitive]:
     (x, y), (w, h) = cells.at(box.x, box.y), cells.of(box)
-    plate = Plate(x - w / 2, y - h / 2, w, h, box.fill, box.stroke, line, 0.14 * min(w, h), box.opacity)
+    plate = Plate(x - w / 2, y - h / 2, w, h, box.fill, box.stroke, line, CORNER_OF_BOX * min(w, h), box.opacity)
     lines = said.splitlines()
     top = y + 0.36 * size - (len(lines) - 1) * IN_BOX * size / 2
     words = [

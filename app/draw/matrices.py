@@ -5,12 +5,12 @@ factors, the last stage first, as they are written: M = M3 M2 M1.
 """
 
 from collections.abc import Sequence
-from functools import cache, lru_cache
+from functools import lru_cache
 
 import numpy as np
 from scipy.sparse import csr_array
 
-from app.draw.picture import Box, Diagram, Note
+from app.draw.picture import Box, Diagram, Note, Squares
 from app.draw.theme import Theme, mixed
 from app.state import Spot
 from subdivision import Step, Trace
@@ -69,6 +69,7 @@ def _drawn(
     places, (wide, tall) = _shelved([(m.shape[1], m.shape[0]) for m in shown])
     head = HEAD * max(wide, tall)
     boxes: list[Box] = []
+    squares: list[Squares] = []
     notes: list[Note] = []
     for matrix, title, lit, stage, (x, y) in zip(shown, titles, rows, stages, places, strict=True):
         height, width = matrix.shape
@@ -76,7 +77,7 @@ def _drawn(
         frame = Box(*middle, ("",), theme.background, theme.ink, theme.muted, width + 1, height + 1, line=1.2)
         boxes.append(frame)
         boxes.extend(_strip(x, y, width, int(row), theme) for row in lit)
-        boxes.extend(_marks(matrix, (x, y), stage, lit, theme))
+        squares.append(_marks(matrix, (x, y), stage, lit, theme))
         notes.append(
             Note(
                 x - 0.5,
@@ -85,7 +86,8 @@ def _drawn(
                 theme.muted,
             )
         )
-    return Diagram((-1.0, -head, wide + 1.0, tall + 1.0), tuple(boxes), (), tuple(notes), largest=26.0)
+    room = -1.0, -head, wide + 1.0, tall + 1.0
+    return Diagram(room, tuple(boxes), (), tuple(notes), largest=26.0, squares=tuple(squares))
 
 
 def _shelved(sizes: Sequence[tuple[int, int]]) -> tuple[list[tuple[float, float]], tuple[float, float]]:
@@ -120,15 +122,10 @@ def _strip(x: float, y: float, width: int, row: int, theme: Theme) -> Box:
     return Box(x + width / 2, y + row + 0.5, ("",), fill, theme.ink, fill, width + 1.0, 1.0, line=0.0)
 
 
-def _marks(matrix: csr_array, at: tuple[float, float], stage: int, lit: Indices, theme: Theme) -> list[Box]:
+def _marks(matrix: csr_array, at: tuple[float, float], stage: int, lit: Indices, theme: Theme) -> Squares:
     entries = matrix.tocoo()
-    weights: Floats = np.abs(entries.data) / max(float(np.abs(entries.data).max()), 1e-300)
-    found, chosen = [], set(lit.tolist())
-    shade = cache(lambda ink, w: mixed(theme.background, ink, PALEST + (1 - PALEST) * w))
-    for i, j, w in zip(entries.row.tolist(), entries.col.tolist(), weights.tolist(), strict=True):
-        ink = theme.selection if i in chosen else theme.ink
-        fill = shade(ink, w)
-        found.append(
-            Box(at[0] + j + 0.5, at[1] + i + 0.5, ("",), fill, ink, fill, 0.86, 0.86, point=i, stage=stage, line=0.0)
-        )
-    return found
+    weights: Floats = np.abs(entries.data) / max(float(np.abs(entries.data).max(initial=0.0)), 1e-300)
+    ink = np.where(np.isin(entries.row, lit)[:, None], theme.selection, theme.ink)
+    shade = (PALEST + (1 - PALEST) * weights)[:, None]
+    places = np.stack([at[0] + entries.col + 0.5, at[1] + entries.row + 0.5], axis=1)
+    return Squares(places, (1 - shade) * theme.background + shade * ink, np.asarray(entries.row, dtype=np.intp), stage)

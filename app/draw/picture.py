@@ -201,6 +201,28 @@ class Box:
     choice: int = -1
 
 
+@dataclass(frozen=True, eq=False)
+class Squares:
+    """Many small squares of a diagram, as the marks of a matrix, over its boxes.
+
+    ``places`` (n, 2) are their middles, in cells; ``colours`` (n, 3); ``points`` (n,) the points of the trace that they
+    are about, after ``stage`` stages; ``side`` theirs, in cells.
+    """
+
+    places: Floats
+    colours: Floats
+    points: Indices
+    stage: int
+    side: float = 0.86
+    opacity: float = 1.0
+
+    def box(self, k: int) -> Box:
+        """One of them, as a box."""
+        (x, y), (red, green, blue) = self.places[k].tolist(), self.colours[k].tolist()
+        fill, point = (red, green, blue), int(self.points[k])
+        return Box(x, y, ("",), fill, fill, fill, self.side, self.side, self.opacity, point, self.stage, line=0.0)
+
+
 @dataclass(frozen=True)
 class Link:
     """A stroke of a diagram from one place to another, in cells; an arrow has a head at the second one."""
@@ -247,7 +269,10 @@ class Dot:
 
 @dataclass(frozen=True)
 class Diagram:
-    """One flat pane: boxes, dots, strokes, words; ``cells`` is (left, top, right, bottom) of what must be visible."""
+    """One flat pane: boxes, dots, strokes, words, squares.
+
+    ``cells`` is (left, top, right, bottom) of what must be visible.
+    """
 
     cells: tuple[float, float, float, float]
     boxes: tuple[Box, ...] = ()
@@ -258,6 +283,7 @@ class Diagram:
     """No cell is drawn higher than this, in logical points."""
     shape: tuple[float, float] = (1.0, 1.0)
     """Least and most width to height of a cell: within them it takes the room that its pane has."""
+    squares: tuple[Squares, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

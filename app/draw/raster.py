@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from app.draw.flat import FLAT, Disc, Part, Polygon
 from app.draw.layout import fitted, overlay, pane_areas
 from app.draw.picture import Colour, Picture, Scene
-from app.draw.primitives import ANCHOR, RIM, Area, Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import ANCHOR, RIM, Area, Mark, Plate, Primitive, Stroke, Text, Tiles
 from app.draw.samples import PLACES, Mean
 from app.draw.type import measure, path
 from subdivision.arrays import Floats
@@ -215,6 +215,9 @@ class Brush:
             case Plate():
                 shape = _rounded(each.x, each.y, each.width, each.height, each.radius)
                 self.draw(shape, each.fill, each.stroke, each.line, each.opacity)
+            case Tiles():
+                for plate in each.plates():
+                    self.paint(plate)
             case Stroke():
                 line = Outline([(each.x0, each.y0), (each.x1, each.y1)])
                 self.draw(line, None, each.colour, each.width, each.opacity, dashed=each.dashed)

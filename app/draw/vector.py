@@ -12,7 +12,7 @@ from app.draw.flat import FLAT, Disc, Polygon
 from app.draw.layout import overlay, pane_areas
 from app.draw.markup import code, faded, number, places
 from app.draw.picture import Picture, Scene
-from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text, Tiles
 from app.draw.projection import projected
 from app.draw.type import FAMILY, measure, outline, runs
 
@@ -45,6 +45,8 @@ def _flat(each: Primitive) -> Iterator[str]:
             yield from _text(each)
         case Plate():
             yield _plate(each)
+        case Tiles():
+            yield from map(_plate, each.plates())
         case Stroke():
             dash = f' stroke-dasharray="{number(4 * each.width)} {number(3 * each.width)}"' if each.dashed else ""
             ends = f"M{number(each.x0)} {number(each.y0)}L{number(each.x1)} {number(each.y1)}"

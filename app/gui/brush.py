@@ -10,10 +10,13 @@ from PySide6.QtGui import QPainter, QPainterPath, QPen, QPolygonF
 
 from app.draw.flat import FLAT, Disc, Polygon
 from app.draw.picture import Colour
-from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import ANCHOR, RIM, Mark, Plate, Primitive, Stroke, Text, Tiles
 from app.draw.type import measure, outline
 from app.gui.look import colour
 from subdivision.arrays import Floats, Indices
+
+ROUNDED = 1.0
+"""Round corners of tiles of a smaller radius, in pixels, are not seen."""
 
 KINDS = MOVE, LINE, CURVE, CUBIC, CLOSE = 1, 2, 3, 4, 79
 """How matplotlib calls the vertices of an outline."""
@@ -28,6 +31,8 @@ def paint(painter: QPainter, primitives: Iterable[Primitive], words: Callable[[Q
                 words(painter, each)
             case Plate():
                 _plate(painter, each)
+            case Tiles():
+                _tiles(painter, each)
             case Stroke():
                 painter.setPen(_pen(each.colour, each.width, each.opacity, dashed=each.dashed))
                 painter.drawLine(QLineF(each.x0, each.y0, each.x1, each.y1))
@@ -105,6 +110,20 @@ def _plate(painter: QPainter, plate: Plate) -> None:
     pen = Qt.PenStyle.NoPen if plate.stroke is None else _pen(plate.stroke, plate.line, plate.opacity)
     painter.setPen(pen)
     painter.drawRoundedRect(QRectF(plate.x, plate.y, plate.width, plate.height), plate.radius, plate.radius)
+
+
+def _tiles(painter: QPainter, tiles: Tiles) -> None:
+    """All of one colour at once; round corners that nobody sees are none."""
+    painter.setPen(Qt.PenStyle.NoPen)
+    shades, which = np.unique(tiles.colours, axis=0, return_inverse=True)
+    for k, (red, green, blue) in enumerate(shades.tolist()):
+        painter.setBrush(colour((red, green, blue), tiles.opacity))
+        rooms = [QRectF(x, y, tiles.width, tiles.height) for x, y in tiles.corners[which == k].tolist()]
+        if tiles.radius < ROUNDED:
+            painter.drawRects(rooms)
+            continue
+        for room in rooms:
+            painter.drawRoundedRect(room, tiles.radius, tiles.radius)
 
 
 @lru_cache(maxsize=1024)

@@ -11,7 +11,7 @@ from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPixmap, QRegion
 from PySide6.QtWidgets import QWidget
 
-from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import Mark, Plate, Primitive, Stroke, Text, Tiles
 from app.draw.type import extent
 from app.gui.brush import paint, type_
 from app.gui.lens import MAGNIFICATION
@@ -183,6 +183,8 @@ def toil(primitives: Iterable[Primitive], scale: float) -> float:
 
 
 def _toil(each: Primitive, scale: float) -> float:
+    if isinstance(each, Tiles):
+        return SHAPE * len(each.corners)
     if not isinstance(each, Text):
         return SHAPE
     return len(each.text) * scale * each.size / LETTER * (1.0 if each.halo is None else HALO)
@@ -224,6 +226,9 @@ def touched(each: Primitive) -> QRect:
             found, rim = QRectF(left, top, wide, tall), 0.3 * each.size
         case Plate():
             found, rim = QRectF(each.x, each.y, each.width, each.height), each.line
+        case Tiles():
+            (left, top), (right, bottom) = each.corners.min(axis=0).tolist(), each.corners.max(axis=0).tolist()
+            found, rim = QRectF(left, top, right - left + each.width, bottom - top + each.height), 0.0
         case Stroke():
             found = QRectF(QPointF(each.x0, each.y0), QPointF(each.x1, each.y1)).normalized()
             rim = each.width

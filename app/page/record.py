@@ -17,7 +17,7 @@ from app.draw.compose import compose, said
 from app.draw.layout import overlay, pane_areas
 from app.draw.motion import eased
 from app.draw.picture import Camera, Colour, Diagram, Pane, Picture, Scene
-from app.draw.primitives import Area, Mark, Plate, Primitive, Stroke, Text
+from app.draw.primitives import Area, Mark, Plate, Stroke, Text, one_by_one
 from app.draw.theme import THEMES
 from app.page.tables import Tables
 from app.state import State, Stop, at_stop, choose, start, stops
@@ -200,6 +200,7 @@ def _colours(picture: Picture) -> Iterator[Colour]:
             yield from content.bar.colours if content.bar is not None else ()
         else:
             yield from (colour for box in content.boxes for colour in (box.fill, box.ink, box.stroke))
+            yield from ((r, g, b) for squares in content.squares for r, g, b in squares.colours.tolist())
             yield from (each.colour for group in (content.links, content.notes, content.dots) for each in group)
 
 
@@ -282,7 +283,7 @@ def _flat(picture: Picture, tables: Tables) -> dict[int, list[Part]]:
     words = overlay(replace(picture, panes=()), WIDTH, HEIGHT)
     found: dict[int, list[Part]] = {k: [] for k in range(len(areas))}
     boxes = dict.fromkeys(found, 0)
-    for each in laid[: len(laid) - len(words)]:
+    for each in one_by_one(laid[: len(laid) - len(words)]):
         middle = _middle(each)
         k = min(found, key=lambda k: _beyond(areas[k], middle))
         boxes[k] += isinstance(each, Plate)
@@ -290,7 +291,7 @@ def _flat(picture: Picture, tables: Tables) -> dict[int, list[Part]]:
     return {k: [Part(("area", *areas[k][2:]), {}), *parts] for k, parts in found.items()}
 
 
-def _middle(each: Primitive) -> tuple[float, float]:
+def _middle(each: Text | Plate | Stroke | Mark) -> tuple[float, float]:
     match each:
         case Stroke():
             return (each.x0 + each.x1) / 2, (each.y0 + each.y1) / 2
@@ -306,7 +307,7 @@ def _beyond(area: Area, place: tuple[float, float]) -> float:
     return max(x - place[0], place[0] - x - w, 0.0) + max(y - place[1], place[1] - y - h, 0.0)
 
 
-def _primitive(each: Primitive, area: Area, box: int, tables: Tables) -> Part:
+def _primitive(each: Text | Plate | Stroke | Mark, area: Area, box: int, tables: Tables) -> Part:
     left, top = area[:2]
     what: tuple[Value, ...]
     numbers: tuple[float, ...]
