@@ -11,7 +11,7 @@ else there is to do, until it needs them.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import ceil
-from time import process_time, thread_time
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -132,15 +132,15 @@ class Canvas(QWidget):
         window.SetSwapBuffers(is_front)  # which waits for the pixels
         window.Render()
         self._plotter.context().functions().glFlush()
-        return _Begun(wide, tall, is_front, begin, thread_time())
+        return _Begun(wide, tall, is_front, process_time() - begin)
 
     def _drawn(self, begun: "_Begun") -> NDArray[np.uint32]:
         """What is in space, (height, width) pixels from the top down."""
-        elsewhere = thread_time() - begun.since
+        begin = process_time()
         wide, tall = begun.wide, begun.tall
         self._plotter.render_window.GetRGBACharPixelData(0, 0, wide - 1, tall - 1, begun.is_front, self._pixels, 0)
         rows = vtk_to_numpy(self._pixels).view(np.uint32).reshape(tall, wide)[::-1] | OPAQUE
-        self._took = process_time() - begun.begin - elsewhere
+        self._took = begun.took + process_time() - begin
         return rows
 
 
@@ -148,11 +148,10 @@ class Canvas(QWidget):
 class _Begun:
     """A picture of ``wide`` by ``tall`` pixels that is being drawn, in VTK's front buffer or its back one.
 
-    ``begin``: when it began, in the processor's time; ``since``: when this thread was free again, in its own.
+    ``took``: the processor's seconds until this thread was free again.
     """
 
     wide: int
     tall: int
     is_front: bool
-    begin: float
-    since: float
+    took: float
